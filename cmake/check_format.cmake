@@ -1,0 +1,42 @@
+# Checks the layout of the C++ sources below ROOT, or with -DFIX=ON repairs it.
+#   cmake [-DROOT=.] [-DFIX=ON] -P cmake/check_format.cmake
+cmake_minimum_required(VERSION 3.25)
+
+if(NOT ROOT)
+  cmake_path(GET CMAKE_CURRENT_LIST_DIR PARENT_PATH ROOT)
+endif()
+
+# Other versions lay out some constructs differently.
+find_program(CLANG_FORMAT NAMES clang-format-14 clang-format)
+if(CLANG_FORMAT)
+  execute_process(COMMAND "${CLANG_FORMAT}" --version OUTPUT_VARIABLE version)
+endif()
+if(NOT version MATCHES "version 14\\.")
+  message("clang-format 14 not found: the layout is not checked")
+  return()
+endif()
+
+set(files "")
+foreach(folder IN ITEMS include src tests examples benchmarks)
+  file(GLOB_RECURSE found RELATIVE "${ROOT}" "${ROOT}/${folder}/*.h" "${ROOT}/${folder}/*.cpp")
+  list(APPEND files ${found})
+endforeach()
+if(FIX)
+  execute_process(COMMAND "${CLANG_FORMAT}" -i ${files} WORKING_DIRECTORY "${ROOT}"
+    COMMAND_ERROR_IS_FATAL ANY)
+  return()
+endif()
+
+set(faults "")
+foreach(file IN LISTS files)
+  execute_process(COMMAND "${CLANG_FORMAT}" --dry-run --Werror "${file}"
+    WORKING_DIRECTORY "${ROOT}" RESULT_VARIABLE result ERROR_VARIABLE errors)
+  if(NOT result EQUAL 0)
+    string(REGEX MATCH ":[0-9]+:" line "${errors}")
+    string(APPEND faults "  ${file}${line}\n")
+  endif()
+endforeach()
+if(faults)
+  message(FATAL_ERROR "Not laid out by .clang-format:\n${faults}"
+    "Repair with: cmake -DFIX=ON -P cmake/check_format.cmake")
+endif()

@@ -1,0 +1,30 @@
+include(CMakePackageConfigHelpers)
+include(GNUInstallDirs)
+
+set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/freqsynth")
+
+install(TARGETS freqsynth EXPORT freqsynthTargets FILE_SET HEADERS)
+install(EXPORT freqsynthTargets NAMESPACE freqsynth:: DESTINATION "${package_dir}")
+# The build tree is a package too: -Dfreqsynth_DIR=<build>.
+export(EXPORT freqsynthTargets NAMESPACE freqsynth::
+  FILE "${PROJECT_BINARY_DIR}/freqsynthTargets.cmake")
+
+configure_package_config_file(cmake/freqsynthConfig.cmake.in
+  "${PROJECT_BINARY_DIR}/freqsynthConfig.cmake" INSTALL_DESTINATION "${package_dir}")
+# Before 1.0 a minor version may change the interface.
+write_basic_package_version_file("${PROJECT_BINARY_DIR}/freqsynthConfigVersion.cmake"
+  COMPATIBILITY SameMinorVersion)
+install(FILES
+  "${PROJECT_BINARY_DIR}/freqsynthConfig.cmake"
+  "${PROJECT_BINARY_DIR}/freqsynthConfigVersion.cmake"
+  DESTINATION "${package_dir}")
+
+# Relative to the .pc file, so that an installed tree can be moved.
+file(RELATIVE_PATH pc_prefix
+  "${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig" "${CMAKE_INSTALL_PREFIX}")
+file(RELATIVE_PATH pc_includedir
+  "${CMAKE_INSTALL_PREFIX}" "${CMAKE_INSTALL_FULL_INCLUDEDIR}")
+configure_file(cmake/freqsynth.pc.in "${PROJECT_BINARY_DIR}/freqsynth.pc" @ONLY)
+install(FILES "${PROJECT_BINARY_DIR}/freqsynth.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
+
+install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}")

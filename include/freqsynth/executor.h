@@ -1,0 +1,67 @@
+/// \file
+/// How `run` uses several threads: an executor runs independent tasks. The library itself starts no
+/// thread unless the host constructs a ThreadPool; a host with a pool of its own wraps that one.
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <memory>
+
+namespace freqsynth {
+
+/// A reference to a callable `void(std::size_t)`; must not outlive it. Cheaper than a
+/// std::function.
+class TaskRef {
+ public:
+  template <class F>
+  requires std::invocable<const F&, std::size_t>
+  explicit TaskRef(const F& function) : object_(&function), call_(&call<F>) {}
+
+  void operator()(std::size_t index) const { call_(object_, index); }
+
+ private:
+  template <class F>
+  static void call(const void* object, std::size_t index) {
+    (*static_cast<const F*>(object))(index);
+  }
+
+  const void* object_;
+  void (*call_)(const void*, std::size_t);
+};
+
+/// Runs task(0) .. task(count - 1), in any order and on any threads, and returns when all are done.
+/// The tasks never throw. `concurrency()` is how many run at the same time at best.
+template <class E>
+concept Executor = requires(E& executor, std::size_t count, TaskRef task) {
+  executor.execute(count, task);
+  { executor.concurrency() } -> std::convertible_to<std::size_t>;
+};
+
+/// Runs everything on the calling thread.
+struct SerialExecutor {
+  static void execute(std::size_t count, TaskRef task) {
+    for (std::size_t i = 0; i < count; ++i) task(i);
+  }
+  static constexpr std::size_t concurrency() { return 1; }
+};
+
+/// A pool of threads that lives as long as the object. The calling thread works along.
+class ThreadPool {
+ public:
+  /// \param threads how many work together, the caller included; 0: one per hardware thread
+  /// \throws std::invalid_argument when threads > 1024.
+  explicit ThreadPool(std::size_t threads = 0);
+  ~ThreadPool();
+  ThreadPool(const ThreadPool&) = delete;
+  ThreadPool& operator=(const ThreadPool&) = delete;
+
+  /// See Executor. One call at a time.
+  void execute(std::size_t count, TaskRef task);
+  [[nodiscard]] std::size_t concurrency() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace freqsynth
