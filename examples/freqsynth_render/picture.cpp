@@ -1,0 +1,122 @@
+#include "picture.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+#include <OpenImageIO/strutil.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <system_error>
+
+namespace {
+
+/// A name beside `file` for the time of writing, with the same ending. Devices are written
+/// directly.
+std::filesystem::path unfinished_name(const std::filesystem::path& file) {
+  std::error_code ignored;
+  if (std::filesystem::exists(file, ignored) && !std::filesystem::is_regular_file(file, ignored)) {
+    return file;
+  }
+  std::filesystem::path name = file;
+  return name.replace_filename(file.stem()).concat(".unfinished").concat(file.extension().string());
+}
+
+/// Lets `write(name)` write a file and then gives it its name; removes what a failure leaves.
+template <class Write>
+void write_whole(const std::string& file, const Write& write) {
+  const std::filesystem::path name = unfinished_name(file);
+  std::error_code error;
+  try {
+    write(name.string());
+    if (name != file) std::filesystem::rename(name, file);
+  } catch (const std::exception& reason) {
+    if (name != file) std::filesystem::remove(name, error);
+    throw std::runtime_error(file + ": " + reason.what());
+  }
+}
+
+bool holds_linear(const std::string& file) {
+  const std::string ending = OIIO::Strutil::lower(OIIO::Filesystem::extension(file));
+  const std::array linear{".exr", ".pfm", ".hdr", ".tif", ".tiff"};
+  return std::find(linear.begin(), linear.end(), ending) != linear.end();
+}
+
+/// The transfer function of sRGB (IEC 61966-2-1) to 8 bits.
+std::uint8_t display_encoded(float linear) {
+  const float x = std::clamp(std::isnan(linear) ? 0.0f : linear, 0.0f, 1.0f);
+  const float encoded = x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1 / 2.4f) - 0.055f;
+  return static_cast<std::uint8_t>(std::lround(255 * encoded));
+}
+
+}  // namespace
+
+void write_picture(const std::string& file, const Picture& picture) {
+  write_whole(file, [&](const std::string& name) {
+    const auto output = OIIO::ImageOutput::create(name);
+    if (!output) throw std::runtime_error(OIIO::geterror());
+    const bool linear = holds_linear(name);
+    OIIO::ImageSpec spec(static_cast<int>(picture.width), static_cast<int>(picture.height),
+                         static_cast<int>(picture.channels),
+                         linear ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8);
+    spec.attribute("oiio:ColorSpace", linear ? "Linear" : "sRGB");
+    spec.attribute("CompressionQuality", 95);
+    bool written = output->open(name, spec);
+    if (written && linear) {
+      written = output->write_image(OIIO::TypeDesc::FLOAT, picture.pixels.data());
+    } else if (written) {
+      std::vector<std::uint8_t> encoded(picture.pixels.size());
+      std::transform(picture.pixels.begin(), picture.pixels.end(), encoded.begin(),
+                     display_encoded);
+      written = output->write_image(OIIO::TypeDesc::UINT8, encoded.data());
+    }
+    if (!written || !output->close()) {
+      const std::string reason = output->geterror();
+      throw std::runtime_error(reason.empty() ? "cannot be written" : reason);
+    }
+  });
+}
+
+void write_text(const std::string& file, const std::string& text) {
+  write_whole(file, [&](const std::string& name) {
+    std::ofstream stream(name);
+    stream << text;
+    stream.close();
+    if (!stream) throw std::runtime_error("cannot be written");
+  });
+}
+
+void make_folder(const std::string& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error || !std::filesystem::is_directory(folder)) {
+    throw std::runtime_error(folder + ": " + (error ? error.message() : "not a folder"));
+  }
+}
+
+Picture contact_sheet(const std::vector<Picture>& pictures, std::size_t columns) {
+  const Picture& first = pictures.front();
+  const std::size_t gap = std::max<std::size_t>(2, first.width / 64);
+  const std::size_t rows = (pictures.size() + columns - 1) / columns;
+  Picture sheet{columns * first.width + (columns + 1) * gap,
+                rows * first.height + (rows + 1) * gap,
+                first.channels,
+                {}};
+  sheet.pixels.assign(sheet.width * sheet.height * sheet.channels, 1.0f);
+  for (std::size_t i = 0; i < pictures.size(); ++i) {
+    const std::size_t left = gap + i % columns * (first.width + gap);
+    const std::size_t top = gap + i / columns * (first.height + gap);
+    for (std::size_t y = 0; y < first.height; ++y) {
+      const auto line = pictures[i].pixels.begin() +
+                        static_cast<std::ptrdiff_t>(y * first.width * first.channels);
+      std::copy_n(line, first.width * first.channels,
+                  sheet.pixels.begin() + static_cast<std::ptrdiff_t>(
+                                             ((top + y) * sheet.width + left) * first.channels));
+    }
+  }
+  return sheet;
+}

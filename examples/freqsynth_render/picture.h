@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+/// Pixels, row by row, channels interleaved; linear values.
+struct Picture {
+  std::size_t width = 0;
+  std::size_t height = 0;
+  std::size_t channels = 3;
+  std::vector<float> pixels;
+};
+
+/// Writes a picture. The ending of the name chooses the format: EXR, PFM, HDR and TIFF hold the
+/// linear values as they are, all others get 8 bits in sRGB. A file of that name is replaced only
+/// when the new one is complete.
+/// \throws std::runtime_error naming the file and the reason.
+void write_picture(const std::string& file, const Picture& picture);
+
+/// Writes text, in the same way.
+void write_text(const std::string& file, const std::string& text);
+
+/// Makes a folder unless it exists. \throws std::runtime_error naming it.
+void make_folder(const std::string& folder);
+
+/// Pictures of one size side by side, `columns` in a row, on white.
+Picture contact_sheet(const std::vector<Picture>& pictures, std::size_t columns);

@@ -1,0 +1,47 @@
+#include "reference.h"
+
+#include <array>
+#include <cmath>
+#include <random>
+
+#include "sampling.h"
+
+Picture render_reference(const scenes::Scene& scene, std::size_t width, std::size_t height,
+                         std::size_t channels, std::size_t samples, std::uint64_t seed,
+                         freqsynth::ThreadPool& pool, const std::function<void(double)>& progress) {
+  Picture picture{width, height, channels, std::vector<float>(width * height * channels)};
+  auto down = static_cast<std::size_t>(std::sqrt(static_cast<double>(samples)));
+  while (samples % down != 0) --down;
+  const std::size_t across = samples / down;
+
+  std::size_t row_begin = 0;
+  const auto render_row = [&](std::size_t task) {
+    const std::size_t y = row_begin + task;
+    std::seed_seq seeds{seed, seed >> 32, std::uint64_t{y}};
+    std::mt19937_64 random(seeds);
+    const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
+    std::array<float, 3> value{};
+    for (std::size_t x = 0; x < width; ++x) {
+      std::array<double, 3> sum{};
+      for (std::size_t i = 0; i < samples; ++i) {
+        const double dx =
+            (static_cast<double>(i % across) + uniform()) / static_cast<double>(across);
+        const double dy = (static_cast<double>(i / across) + uniform()) / static_cast<double>(down);
+        sample_scene(scene, static_cast<double>(x) + dx, static_cast<double>(y) + dy,
+                     std::span(value).first(channels));
+        for (std::size_t c = 0; c < channels; ++c) sum[c] += double{value[c]};
+      }
+      for (std::size_t c = 0; c < channels; ++c) {
+        picture.pixels[(y * width + x) * channels + c] =
+            static_cast<float>(sum[c] / static_cast<double>(samples));
+      }
+    }
+  };
+  // A few rows at a time, so that progress can be told in between.
+  const std::size_t rows_together = 8 * pool.concurrency();
+  for (; row_begin < height; row_begin += rows_together) {
+    pool.execute(std::min(rows_together, height - row_begin), freqsynth::TaskRef(render_row));
+    progress(static_cast<double>(row_begin) / static_cast<double>(height));
+  }
+  return picture;
+}

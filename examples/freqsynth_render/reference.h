@@ -1,0 +1,17 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+
+#include "freqsynth/executor.h"
+#include "picture.h"
+#include "scenes/scene.h"
+
+/// The yardstick: `samples` jittered samples in each pixel, averaged. They are stratified in a grid
+/// whose sides are the two factors of `samples` nearest to each other, so squares are best and
+/// primes worst. The same for the same seed, whatever the number of threads.
+/// \param progress  called with the share that is done
+Picture render_reference(const scenes::Scene& scene, std::size_t width, std::size_t height,
+                         std::size_t channels, std::size_t samples, std::uint64_t seed,
+                         freqsynth::ThreadPool& pool, const std::function<void(double)>& progress);
