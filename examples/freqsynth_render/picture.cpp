@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -40,10 +41,29 @@ void write_whole(const std::string& file, const Write& write) {
   }
 }
 
+std::string ending_of(const std::string& file) {
+  return OIIO::Strutil::lower(OIIO::Filesystem::extension(file));
+}
+
 bool holds_linear(const std::string& file) {
-  const std::string ending = OIIO::Strutil::lower(OIIO::Filesystem::extension(file));
-  const std::array linear{".exr", ".pfm", ".hdr", ".tif", ".tiff"};
-  return std::find(linear.begin(), linear.end(), ending) != linear.end();
+  const std::array linear{".exr", ".hdr", ".tif", ".tiff"};
+  return std::find(linear.begin(), linear.end(), ending_of(file)) != linear.end();
+}
+
+/// Portable float map: a header, then rows of floats from the bottom up. OpenImageIO 2.4 only reads
+/// it.
+void write_pfm(const std::string& name, const Picture& picture) {
+  static_assert(std::endian::native == std::endian::little, "the scale in the header says so");
+  std::ofstream stream(name, std::ios::binary);
+  stream << (picture.channels == 1 ? "Pf" : "PF") << '\n'
+         << picture.width << ' ' << picture.height << "\n-1.0\n";
+  const std::size_t row = picture.width * picture.channels;
+  for (std::size_t y = picture.height; y-- > 0;) {
+    stream.write(reinterpret_cast<const char*>(picture.pixels.data() + y * row),
+                 static_cast<std::streamsize>(row * sizeof(float)));
+  }
+  stream.close();
+  if (!stream) throw std::runtime_error("cannot be written");
 }
 
 /// The transfer function of sRGB (IEC 61966-2-1) to 8 bits.
@@ -57,9 +77,10 @@ std::uint8_t display_encoded(float linear) {
 
 void write_picture(const std::string& file, const Picture& picture) {
   write_whole(file, [&](const std::string& name) {
-    const auto output = OIIO::ImageOutput::create(name);
+    if (ending_of(file) == ".pfm") return write_pfm(name, picture);
+    const auto output = OIIO::ImageOutput::create(file);
     if (!output) throw std::runtime_error(OIIO::geterror());
-    const bool linear = holds_linear(name);
+    const bool linear = holds_linear(file);
     OIIO::ImageSpec spec(static_cast<int>(picture.width), static_cast<int>(picture.height),
                          static_cast<int>(picture.channels),
                          linear ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8);
