@@ -1,26 +1,37 @@
-# Fails unless the first ```cpp block of README equals the file EXAMPLE, trailing newlines aside.
-#   cmake -DREADME=README.md -DEXAMPLE=examples/hello.cpp -P check_readme.cmake
+# Fails unless the ```cpp blocks of README are the files EXAMPLES of FOLDER, one each and in this
+# order, trailing newlines aside.
+#   cmake -DREADME=README.md -DFOLDER=examples -DEXAMPLES=a.cpp,b.cpp -P check_readme.cmake
 cmake_minimum_required(VERSION 3.25)
 
-file(READ "${README}" readme)
-file(READ "${EXAMPLE}" example)
-
-set(fence "```cpp\n")
-string(FIND "\n${readme}" "\n${fence}" begin)
-if(begin EQUAL -1)
-  message(FATAL_ERROR "${README} has no ```cpp block")
-endif()
+file(READ "${README}" rest)
+set(rest "\n${rest}")
+set(fence "\n```cpp\n")
 string(LENGTH "${fence}" length)
-math(EXPR begin "${begin} + ${length}")
-string(SUBSTRING "${readme}" ${begin} -1 block)
-string(FIND "${block}" "\n```" end)
-if(end EQUAL -1)
-  message(FATAL_ERROR "${README}: the first ```cpp block does not end")
-endif()
-string(SUBSTRING "${block}" 0 ${end} block)
 
-string(REGEX REPLACE "\n+$" "" block "${block}")
-string(REGEX REPLACE "\n+$" "" example "${example}")
-if(NOT block STREQUAL example)
-  message(FATAL_ERROR "The first ```cpp block of ${README} differs from ${EXAMPLE}")
+string(REPLACE "," ";" EXAMPLES "${EXAMPLES}")
+foreach(file IN LISTS EXAMPLES)
+  string(FIND "${rest}" "${fence}" begin)
+  if(begin EQUAL -1)
+    message(FATAL_ERROR "${README} has no ```cpp block for ${file}")
+  endif()
+  math(EXPR begin "${begin} + ${length}")
+  string(SUBSTRING "${rest}" ${begin} -1 rest)
+  string(FIND "${rest}" "\n```" end)
+  if(end EQUAL -1)
+    message(FATAL_ERROR "${README}: the ```cpp block for ${file} does not end")
+  endif()
+  string(SUBSTRING "${rest}" 0 ${end} block)
+  string(SUBSTRING "${rest}" ${end} -1 rest)
+
+  file(READ "${FOLDER}/${file}" example)
+  string(REGEX REPLACE "\n+$" "" block "${block}")
+  string(REGEX REPLACE "\n+$" "" example "${example}")
+  if(NOT block STREQUAL example)
+    message(FATAL_ERROR "${README}: the ```cpp block for ${file} differs from the file")
+  endif()
+endforeach()
+
+string(FIND "${rest}" "${fence}" begin)
+if(NOT begin EQUAL -1)
+  message(FATAL_ERROR "${README} has a ```cpp block that is no example: no test compiles it")
 endif()
