@@ -112,7 +112,8 @@ void InverseList::reserve(std::size_t count) const {
 }
 
 void InverseList::grow(std::size_t count) const {
-  if (count > SampleSequence::max_size) {
+  // A count of 0 comes from the largest index there is, plus 1.
+  if (count == 0 || count > SampleSequence::max_size) {
     throw std::invalid_argument("freqsynth: an inverse list of " + std::to_string(count) +
                                 " entries exceeds " + std::to_string(SampleSequence::max_size));
   }

@@ -1,5 +1,6 @@
 #include "freqsynth/sample_sequence.h"
 
+#include <numbers>
 #include <stdexcept>
 #include <string>
 
@@ -46,13 +47,16 @@ const SequencePosition& SampleSequence::operator[](std::size_t index) {
 
 void SampleSequence::append_level() {
   if (positions_.empty()) {
-    for (const auto& [s, t] : {std::pair{0., 0.}, {1., 1.}, {1., 0.}, {0., 1.}}) append(s, t, 1);
+    append(0, 0, 1);
+    append(1, 1, std::numbers::sqrt2_v<float>);
+    append(1, 0, 1);
+    append(0, 1, 1);
     return;
   }
   const std::uint64_t nodes = std::uint64_t{1} << (2 * level_);
   const double size = 1.0 / static_cast<double>(std::uint64_t{1} << level_);
   const auto spacing = static_cast<float>(size);
-  constexpr float half_diagonal = 0.70710678f;
+  constexpr float half_diagonal = 0.5f * std::numbers::sqrt2_v<float>;
   for (std::uint64_t visit = 0; visit < nodes; ++visit) {
     const Node node = node_of_visit(visit, level_);
     append((node.x + 0.5) * size, (node.y + 0.5) * size, half_diagonal * spacing);

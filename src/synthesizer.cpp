@@ -376,7 +376,9 @@ FrequencyImage Synthesizer::image() const {
 
 SynthesisStats Synthesizer::stats() const {
   const std::lock_guard lock(mutex_);
-  return stats_;
+  SynthesisStats stats = stats_;
+  stats.samples += delivered_slots_;
+  return stats;
 }
 
 std::vector<BadSample> Synthesizer::bad_samples() const {

@@ -22,9 +22,13 @@
 
 namespace freqsynth {
 
-/// True for a value that a block can absorb: finite, and small enough that sums of many stay
-/// finite.
-[[nodiscard]] inline bool is_usable_sample(float value) { return std::abs(value) <= 1e30f; }
+/// Largest magnitude that a block can absorb: squares of sums of many such values stay finite.
+inline constexpr float max_sample_magnitude = 1e15f;
+
+/// False for a value that is too large, infinite or not a number.
+[[nodiscard]] inline bool is_usable_sample(float value) {
+  return std::abs(value) <= max_sample_magnitude;
+}
 
 /// Refines the states of blocks; the states themselves belong to the caller.
 class LeastSquaresRefiner {

@@ -76,7 +76,7 @@ enum class StopReason {
 struct SynthesisStats {
   std::uint64_t samples = 0;   ///< values delivered = sampler calls that succeeded
   std::uint64_t absorbed = 0;  ///< samples taken in by blocks; border samples count for each block
-  std::uint64_t bad_samples = 0;  ///< samples with a value that is not finite (or beyond 1e30)
+  std::uint64_t bad_samples = 0;  ///< samples with a value that is not is_usable_sample()
   std::uint64_t waves = 0;        ///< waves completed
   std::uint64_t blocks = 0;       ///< blocks of the image
 };
