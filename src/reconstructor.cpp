@@ -89,6 +89,7 @@ class FactorTable {
     const auto [entry, added] = factors_.try_emplace(samples);
     if (added) {
       entry->second = butterworth_factors(settings_, samples);
+      if (meaning_ == CoefficientMeaning::pixel_average) entry->second.fill(1);
       for (std::size_t i = 0; i < max_terms; ++i) {
         const Frequency f = frequency_of_term(i);
         double factor = amplitude_of_coefficient(i);

@@ -99,8 +99,8 @@ Picture density_of(const freqsynth::FrequencyImage& image) {
   Picture picture{image.width(), image.height(), 1, {}};
   for (std::size_t y = 0; y < image.height(); ++y) {
     for (std::size_t x = 0; x < image.width(); ++x) {
-      const double share = static_cast<double>(image.samples(x / 8, y / 8)) / most;
-      picture.pixels.push_back(static_cast<float>(std::sqrt(share)));
+      picture.pixels.push_back(static_cast<float>(image.samples(x / 8, y / 8)) /
+                               static_cast<float>(most));
     }
   }
   return picture;

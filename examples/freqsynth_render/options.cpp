@@ -73,7 +73,7 @@ std::optional<Options> parse_options(int argc, const char** argv) {
   parser.arg("-o %s:FILE", &options.output)
       .help("The picture: EXR and PFM hold linear values, PNG and JPEG are display-encoded (sRGB)");
   parser.arg("--density %s:FILE", &options.density)
-      .help("Picture of the samples per block: brightness is the square root, white the most");
+      .help("Picture of the samples per block: black none, white the most");
   parser.arg("--frames %s:DIR", &options.frames)
       .help("Pictures at 1/64, 1/32 .. 2 samples per pixel of one run, and a contact sheet");
   parser.arg("--stats %s:FILE", &options.stats).help("Figures of the run as JSON");

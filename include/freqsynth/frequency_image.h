@@ -16,11 +16,12 @@
 
 namespace freqsynth {
 
-/// What the coefficients stand for, so that no pixel filter is applied twice.
+/// What the coefficients stand for, so that no filter is applied twice.
 enum class CoefficientMeaning : std::uint8_t {
-  point_function,  ///< a band-limited function of the position: eq. 2 at any point is its value
-                   ///< there
-  pixel_average    ///< averages over pixels: eq. 2 at a pixel's centre is its mean
+  /// A band-limited function of the position as it was fit: eq. 2 at any point is its value there.
+  point_function,
+  /// Finished pixels: eq. 2 at a pixel's centre is the mean over the pixel, low-pass included.
+  pixel_average
 };
 
 /// A grid of blocks of coefficients. The last blocks of an image whose size is no multiple of 8

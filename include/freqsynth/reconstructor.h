@@ -21,6 +21,7 @@ enum class PixelFilter : std::uint8_t {
 };
 
 struct ReconstructionSettings {
+  /// Applies to CoefficientMeaning::point_function; finished pixels are not filtered again.
   ButterworthSettings butterworth = {};
   PixelFilter pixel_filter = PixelFilter::box;
   bool clamp_negative =

@@ -34,14 +34,21 @@ namespace detail {
 
 template <class T>
 struct SampleTraits {
-  static constexpr bool valid = std::is_arithmetic_v<T>;
+  static constexpr bool valid = false;
+};
+
+template <class T>
+requires std::is_arithmetic_v<T>
+struct SampleTraits<T> {
+  static constexpr bool valid = true;
   static constexpr std::size_t channels = 1;
   static void store(const T& value, float* out) { *out = static_cast<float>(value); }
 };
 
 template <class T, std::size_t N>
+requires std::is_arithmetic_v<T>
 struct SampleTraits<std::array<T, N>> {
-  static constexpr bool valid = std::is_arithmetic_v<T> && N > 0;
+  static constexpr bool valid = N > 0;
   static constexpr std::size_t channels = N;
   static void store(const std::array<T, N>& value, float* out) {
     for (std::size_t c = 0; c < N; ++c) out[c] = static_cast<float>(value[c]);
