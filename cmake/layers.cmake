@@ -1,5 +1,6 @@
-# The layer table: the one list of the library's headers. The build installs exactly these, and
-# check_layers.cmake lets each include only headers of a strictly lower layer.
+# The layer table: the one list of the library's headers. The build installs exactly these (jpeg.h
+# with its component), and check_layers.cmake lets each include only headers of a strictly lower
+# layer.
 set(FREQSYNTH_LAYERS
   "0 config.h"
   "1 dct.h"
@@ -15,7 +16,12 @@ set(FREQSYNTH_LAYERS
   "4 block_queue.h"
   "4 edge_cache.h"
   "5 butterworth.h"
-  "6 synthesizer.h"
+  "5 quantization_target.h"
+  "6 pixel_finisher.h"
+  "7 synthesizer.h"
   "6 reconstructor.h"
-  "7 freqsynth.h"
+  "6 quantization.h"
+  "7 display_encoding.h"
+  "7 jpeg.h"
+  "8 freqsynth.h"
 )

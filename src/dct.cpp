@@ -24,7 +24,12 @@ struct PixelCosines {
   alignas(32) float by_frequency[block_size][block_size];  // [u][x]
   alignas(32) float by_pixel[block_size][block_size];      // [y][v]
 
+  float amplitude[max_terms];  // of a coefficient, zig-zag
+
   PixelCosines() {
+    for (std::size_t i = 0; i < max_terms; ++i) {
+      amplitude[i] = static_cast<float>(amplitude_of_coefficient(i));
+    }
     for (std::size_t x = 0; x < block_size; ++x) {
       const auto values = cosines((static_cast<double>(x) + 0.5) / block_size);
       for (std::size_t u = 0; u < block_size; ++u) {
@@ -49,6 +54,14 @@ void evaluate_terms(double s, double t, std::span<double> terms) {
     const Frequency f = frequency_of_term(i);
     terms[i] = across[f.u] * down[f.v];
   }
+}
+
+double pixel_mean_of_term(std::size_t term) {
+  const auto sinc = [](double z) {
+    return z == 0 ? 1 : std::sin(std::numbers::pi * z) / (std::numbers::pi * z);
+  };
+  const Frequency f = frequency_of_term(term);
+  return sinc(f.u / 16.0) * sinc(f.v / 16.0);
 }
 
 void forward_dct(std::span<const float, max_terms> pixels,
@@ -79,10 +92,10 @@ void inverse_dct(std::span<const float, max_terms> coefficients, std::span<float
                                 ", not in 1..64");
   }
   const PixelCosines& table = pixel_cosines();
-  alignas(32) float amplitudes[max_terms] = {};
-  for (std::size_t i = 0; i < terms; ++i) {
-    amplitudes[detail::zigzag_to_row_major[i]] =
-        coefficients[i] * static_cast<float>(amplitude_of_coefficient(i));
+  alignas(32) float amplitudes[max_terms];
+  for (std::size_t place = 0; place < max_terms; ++place) {
+    const std::size_t term = detail::row_major_to_zigzag[place];
+    amplitudes[place] = term < terms ? coefficients[term] * table.amplitude[term] : 0;
   }
   alignas(32) float out[max_terms];
   detail::evaluate_separable(amplitudes, table.by_frequency[0], block_size, block_size,

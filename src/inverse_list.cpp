@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "freqsynth/dct.h"
 
@@ -18,6 +19,51 @@ double pixel_change(double amplitude, std::size_t term) {
 }
 
 }  // namespace
+
+/// The pixels of the block that a position lies in, or on the border of, in equal shares. Beyond
+/// the block's own border lie the neighbour's pixels, which get theirs there.
+void set_pixels(const SequencePosition& position, detail::SampleRow& row) {
+  const auto touched = [](double s) {
+    const double x = s * block_size;
+    const double below = std::floor(x);
+    std::vector<std::size_t> pixels;
+    if (below == x && x > 0) pixels.push_back(static_cast<std::size_t>(below) - 1);
+    if (x < block_size) pixels.push_back(static_cast<std::size_t>(below));
+    return std::pair(pixels, below == x ? 0.5f : 1.0f);
+  };
+  const auto [columns, across] = touched(position.s);
+  const auto [rows, down] = touched(position.t);
+  row.pixel_weight = across * down;
+  for (const std::size_t y : rows) {
+    for (const std::size_t x : columns) {
+      row.pixels[row.pixel_count++] = static_cast<std::uint8_t>(y * block_size + x);
+    }
+  }
+}
+
+/// Expected energy of the terms when it falls with the third power of the frequency, as that of
+/// edges does.
+struct EdgeSpectrum {
+  std::array<double, max_terms> energy{};  // of each term but the constant one
+  std::array<double, max_terms> tail{};    // of it and of all frequencies that come later
+
+  EdgeSpectrum() {
+    constexpr std::size_t finest = 64;  // frequencies beyond hold next to nothing
+    const auto density = [](std::size_t u, std::size_t v) {
+      return std::pow(static_cast<double>(u * u + v * v), -1.5);
+    };
+    double rest = 0;
+    for (std::size_t v = 0; v < finest; ++v) {
+      for (std::size_t u = v == 0 ? 1 : 0; u < finest; ++u) rest += density(u, v);
+    }
+    for (std::size_t i = 1; i < max_terms; ++i) {
+      const Frequency f = frequency_of_term(i);
+      energy[i] = density(f.u, f.v);
+      tail[i] = rest;
+      rest -= energy[i];
+    }
+  }
+};
 
 /// The state after the newest entry.
 struct InverseList::Builder {
@@ -44,6 +90,7 @@ void InverseList::Builder::build(Chunk& chunk, std::size_t index) {
   cold.gain.assign(terms, 0);
   detail::multiply(normal.inverse().values.data(), a.data(), terms, cold.gain.data());
 
+  set_pixels(position, row);
   row.terms = static_cast<std::uint32_t>(terms);
   double change = 0;
   for (std::size_t i = 0; i < max_terms; ++i) {
@@ -53,6 +100,9 @@ void InverseList::Builder::build(Chunk& chunk, std::size_t index) {
     change += std::pow(pixel_change(cold.gain[i], i), 2);
   }
   row.change = static_cast<float>(change);
+  double fitted = 0;
+  for (std::size_t i = 0; i < terms; ++i) fitted += a[i] * cold.gain[i];
+  row.residual = static_cast<float>(1 - fitted);
 
   const double scheduled = 1 + std::floor(static_cast<double>(index) / settings.samples_per_term);
   if (terms < settings.max_terms && static_cast<double>(terms) < scheduled) {
@@ -74,6 +124,7 @@ void InverseList::Builder::build(Chunk& chunk, std::size_t index) {
       border.inverse_delta = static_cast<float>(1 / delta);
       border.change = static_cast<float>(border_change);
       border.cross = static_cast<float>(cross);
+      border.delta = static_cast<float>(delta);
       cold.border = std::move(step);
       row.border = &border;
     }
@@ -81,6 +132,14 @@ void InverseList::Builder::build(Chunk& chunk, std::size_t index) {
 
   cold.terms = normal.terms();
   const TermMatrix& inverse = normal.inverse();
+  static const EdgeSpectrum spectrum;
+  for (std::size_t i = 0; i < max_terms; ++i) {
+    // A term in the fit has the variance of least squares. One that is not is wrong by all that it
+    // holds, a share of what the fit leaves over.
+    cold.variances[i] = static_cast<float>(
+        i < cold.terms ? inverse(i, i) / std::pow(amplitude_of_coefficient(i), 2)
+                       : max_terms * spectrum.energy[i] / spectrum.tail[cold.terms]);
+  }
   cold.inverse.reserve(cold.terms * (cold.terms + 1) / 2);
   for (std::size_t i = 0; i < cold.terms; ++i) {
     for (std::size_t j = 0; j <= i; ++j) {

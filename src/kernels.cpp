@@ -48,8 +48,8 @@ constexpr std::size_t groups_of(std::size_t count, std::size_t width) {
 }  // namespace
 
 FREQSYNTH_MULTIVERSION
-float absorb_sample(const SampleRow& row, float* states, const float* values, const float* weights,
-                    std::size_t channels) {
+float absorb_sample(const SampleRow& row, float* states, float* sums, float* residuals,
+                    const float* values, const float* weights, std::size_t channels) {
   const std::size_t fit_groups = groups_of(row.terms, lanes);
   const std::size_t rest_begin = row.terms / lanes;
   const BorderRow* border = row.border;
@@ -77,7 +77,11 @@ float absorb_sample(const SampleRow& row, float* states, const float* values, co
     for (g = rest_begin; g < max_terms / lanes; ++g) {
       FREQSYNTH_FLOAT8_REF(state + g * lanes) += absorbed * FREQSYNTH_FLOAT8(row.rest + g * lanes);
     }
+    for (std::size_t p = 0; p < row.pixel_count; ++p) {
+      sums[c * max_terms + row.pixels[p]] += absorbed * row.pixel_weight;
+    }
     float squared = row.change * innovation * innovation;
+    float residual = residuals[c] + row.residual * innovation * innovation;
     if (border != nullptr) {
       // Eq. 37 applied to Y: the new amplitude, and what it takes from the old ones.
       Float8 sum = {};
@@ -91,7 +95,10 @@ float absorb_sample(const SampleRow& row, float* states, const float* values, co
             added * FREQSYNTH_FLOAT8(border->step + g * lanes);
       }
       squared += added * (border->change * added + 2 * border->cross * innovation);
+      // Rounding may take a little more than there is.
+      residual = std::max(residual - border->delta * added * added, 0.0f);
     }
+    residuals[c] = residual;
     change += weights[c] * squared;
   }
   return change;
@@ -100,45 +107,60 @@ float absorb_sample(const SampleRow& row, float* states, const float* values, co
 FREQSYNTH_MULTIVERSION
 void rank_one_update(double* inverse, double* normal, const double* a, std::size_t terms,
                      std::size_t normal_terms) {
-  // Padding with zeros to whole vectors leaves every sum as it is.
-  alignas(32) double full[max_terms] = {};
-  alignas(32) double fit[max_terms] = {};
-  alignas(32) double h[max_terms] = {};      // A^T J^-1
-  alignas(32) double gamma[max_terms] = {};  // A (A^T A) + J A
-  std::memcpy(full, a, normal_terms * sizeof(double));
-  std::memcpy(fit, a, terms * sizeof(double));
+  // Padding with zeros to whole vectors leaves every sum as it is. Only as much as is read is set:
+  // for few terms setting all would cost more than the update.
+  alignas(32) double full[max_terms];
+  alignas(32) double fit[max_terms];
+  alignas(32) double h[max_terms];      // A^T J^-1
+  alignas(32) double gamma[max_terms];  // A (A^T A) + J A = (J + A A^T) A
   const std::size_t width = groups_of(terms, double_lanes) * double_lanes;
   const std::size_t normal_width = groups_of(normal_terms, double_lanes) * double_lanes;
+  for (std::size_t j = 0; j < normal_width; j += double_lanes) {
+    FREQSYNTH_DOUBLE4_REF(full + j) = Double4{};
+  }
+  for (std::size_t j = 0; j < width; j += double_lanes) {
+    FREQSYNTH_DOUBLE4_REF(fit + j) = FREQSYNTH_DOUBLE4_REF(h + j) = Double4{};
+  }
+  std::memcpy(full, a, normal_terms * sizeof(double));
+  std::memcpy(fit, a, terms * sizeof(double));
 
-  double a_dot_a = 0;
-  for (std::size_t i = 0; i < terms; ++i) a_dot_a += fit[i] * fit[i];
   for (std::size_t i = 0; i < terms; i += 4) {
     // Four rows at a time, so that h is loaded and stored once for all of them. Rows beyond `terms`
     // have fit = 0 and rows of the inverse there are zero.
-    const double* m0 = normal + i * max_terms;
-    const double* m1 = m0 + max_terms;
-    const double* m2 = m1 + max_terms;
-    const double* m3 = m2 + max_terms;
+    double* m0 = normal + i * max_terms;
+    double* m1 = m0 + max_terms;
+    double* m2 = m1 + max_terms;
+    double* m3 = m2 + max_terms;
     const double* r0 = inverse + i * max_terms;
     const double* r1 = r0 + max_terms;
     const double* r2 = r1 + max_terms;
     const double* r3 = r2 + max_terms;
     const double a0 = fit[i], a1 = fit[i + 1], a2 = fit[i + 2], a3 = fit[i + 3];
+    const double f0 = full[i], f1 = full[i + 1], f2 = full[i + 2], f3 = full[i + 3];
     Double4 s0 = {}, s1 = {}, s2 = {}, s3 = {};
     for (std::size_t j = 0; j < width; j += double_lanes) {
       const Double4 x = FREQSYNTH_DOUBLE4(fit + j);
-      s0 += FREQSYNTH_DOUBLE4(m0 + j) * x;
-      s1 += FREQSYNTH_DOUBLE4(m1 + j) * x;
-      s2 += FREQSYNTH_DOUBLE4(m2 + j) * x;
-      s3 += FREQSYNTH_DOUBLE4(m3 + j) * x;
+      const Double4 y = FREQSYNTH_DOUBLE4(full + j);
+      const Double4 n0 = FREQSYNTH_DOUBLE4(m0 + j) + f0 * y;
+      const Double4 n1 = FREQSYNTH_DOUBLE4(m1 + j) + f1 * y;
+      const Double4 n2 = FREQSYNTH_DOUBLE4(m2 + j) + f2 * y;
+      const Double4 n3 = FREQSYNTH_DOUBLE4(m3 + j) + f3 * y;
+      FREQSYNTH_DOUBLE4_REF(m0 + j) = n0;
+      FREQSYNTH_DOUBLE4_REF(m1 + j) = n1;
+      FREQSYNTH_DOUBLE4_REF(m2 + j) = n2;
+      FREQSYNTH_DOUBLE4_REF(m3 + j) = n3;
+      s0 += n0 * x;
+      s1 += n1 * x;
+      s2 += n2 * x;
+      s3 += n3 * x;
       FREQSYNTH_DOUBLE4_REF(h + j) +=
           (a0 * FREQSYNTH_DOUBLE4(r0 + j) + a1 * FREQSYNTH_DOUBLE4(r1 + j)) +
           (a2 * FREQSYNTH_DOUBLE4(r2 + j) + a3 * FREQSYNTH_DOUBLE4(r3 + j));
     }
-    gamma[i] = a0 * a_dot_a + FREQSYNTH_SUM4(s0);
-    gamma[i + 1] = a1 * a_dot_a + FREQSYNTH_SUM4(s1);
-    gamma[i + 2] = a2 * a_dot_a + FREQSYNTH_SUM4(s2);
-    gamma[i + 3] = a3 * a_dot_a + FREQSYNTH_SUM4(s3);
+    gamma[i] = FREQSYNTH_SUM4(s0);
+    gamma[i + 1] = FREQSYNTH_SUM4(s1);
+    gamma[i + 2] = FREQSYNTH_SUM4(s2);
+    gamma[i + 3] = FREQSYNTH_SUM4(s3);
   }
   for (std::size_t i = terms; i < width; ++i) gamma[i] = 0;
 
@@ -161,17 +183,33 @@ void rank_one_update(double* inverse, double* normal, const double* a, std::size
       FREQSYNTH_DOUBLE4_REF(row + j) += w * FREQSYNTH_DOUBLE4(h + j);
     }
   }
+  // The columns and rows of J beyond the fit.
   for (std::size_t i = 0; i < normal_terms; ++i) {
     double* row = normal + i * max_terms;
-    for (std::size_t j = 0; j < normal_width; j += double_lanes) {
+    for (std::size_t j = i < width ? width : 0; j < normal_width; j += double_lanes) {
       FREQSYNTH_DOUBLE4_REF(row + j) += full[i] * FREQSYNTH_DOUBLE4(full + j);
     }
   }
 }
 
 FREQSYNTH_MULTIVERSION
+void add_outer_product(double* matrix, const double* x, double scale, std::size_t terms) {
+  // x is padded with zeros to whole vectors, so that nothing beyond `terms` changes.
+  for (std::size_t i = 0; i < terms; ++i) {
+    double* row = matrix + i * max_terms;
+    const double factor = x[i] * scale;
+    for (std::size_t j = 0; j < terms; j += double_lanes) {
+      FREQSYNTH_DOUBLE4_REF(row + j) += factor * FREQSYNTH_DOUBLE4(x + j);
+    }
+  }
+}
+
+FREQSYNTH_MULTIVERSION
 void multiply(const double* matrix, const double* x, std::size_t terms, double* out) {
-  alignas(32) double padded[max_terms] = {};
+  alignas(32) double padded[max_terms];
+  for (std::size_t j = 0; j < terms; j += double_lanes) {
+    FREQSYNTH_DOUBLE4_REF(padded + j) = Double4{};
+  }
   std::memcpy(padded, x, terms * sizeof(double));
   for (std::size_t i = 0; i < terms; ++i) {
     Double4 sum = {};
@@ -179,6 +217,21 @@ void multiply(const double* matrix, const double* x, std::size_t terms, double* 
       sum += FREQSYNTH_DOUBLE4(matrix + i * max_terms + j) * FREQSYNTH_DOUBLE4(padded + j);
     }
     out[i] = FREQSYNTH_SUM4(sum);
+  }
+}
+
+FREQSYNTH_MULTIVERSION
+void residual_means(const float* matrix, const float* amplitudes, const float* sums,
+                    const float* shares, float* out) {
+  for (std::size_t j = 0; j < max_terms; ++j) {
+    const float* row = matrix + j * max_terms;
+    Float8 even = {}, odd = {};
+    for (std::size_t i = 0; i < max_terms; i += 2 * lanes) {
+      even += FREQSYNTH_FLOAT8(row + i) * FREQSYNTH_FLOAT8(amplitudes + i);
+      odd += FREQSYNTH_FLOAT8(row + i + lanes) * FREQSYNTH_FLOAT8(amplitudes + i + lanes);
+    }
+    even += odd;
+    out[j] = (sums[j] - FREQSYNTH_SUM8(even)) * shares[j];
   }
 }
 

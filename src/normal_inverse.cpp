@@ -23,19 +23,16 @@ double border_inverse(TermMatrix& inverse, std::span<const double> b, double d,
     throw std::invalid_argument("freqsynth: border_inverse: " + std::to_string(terms) +
                                 " old terms with a step of " + std::to_string(step.size()));
   }
-  alignas(32) double rb[max_terms] = {};
+  alignas(32) double rb[max_terms];
   detail::multiply(inverse.values.data(), b.data(), terms, rb);
+  for (std::size_t i = terms; i % 4 != 0; ++i) rb[i] = 0;  // whole vectors
   double delta = d;
   for (std::size_t i = 0; i < terms; ++i) delta -= b[i] * rb[i];
   for (std::size_t i = 0; i < terms; ++i) step[i] = -rb[i];
   if (!(delta > 0)) return delta;
   const double scale = 1 / delta;
-  for (std::size_t i = 0; i < terms; ++i) {
-    double* row = inverse.row(i);
-    const double factor = rb[i] * scale;
-    for (std::size_t j = 0; j < terms; ++j) row[j] += factor * rb[j];
-    row[terms] = inverse(terms, i) = -factor;
-  }
+  detail::add_outer_product(inverse.values.data(), rb, scale, terms);
+  for (std::size_t i = 0; i < terms; ++i) inverse(i, terms) = inverse(terms, i) = -rb[i] * scale;
   inverse(terms, terms) = scale;
   return delta;
 }

@@ -91,12 +91,9 @@ class FactorTable {
       entry->second = butterworth_factors(settings_, samples);
       if (meaning_ == CoefficientMeaning::pixel_average) entry->second.fill(1);
       for (std::size_t i = 0; i < max_terms; ++i) {
-        const Frequency f = frequency_of_term(i);
         double factor = amplitude_of_coefficient(i);
-        if (meaning_ == CoefficientMeaning::pixel_average) {
-          // Undo the average over a pixel, which the weights of the output apply anew.
-          factor /= sinc(f.u / 16.0) * sinc(f.v / 16.0);
-        }
+        // Undo the average over a pixel, which the weights of the output apply anew.
+        if (meaning_ == CoefficientMeaning::pixel_average) factor /= pixel_mean_of_term(i);
         entry->second[i] *= static_cast<float>(factor);
       }
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -32,10 +33,20 @@ SynthesisSettings validated(SynthesisSettings settings) {
       throw std::invalid_argument("freqsynth: importance holds " + std::to_string(importance));
     }
   }
+  if (settings.quantization) settings.quantization->validate(settings.channels);
   if (!settings.shared_list) {
     settings.shared_list = std::make_shared<const InverseList>(settings.list);
   }
   return settings;
+}
+
+/// Asks for a line of memory that will be written soon.
+void prefetch(const float* address) {
+#if defined(__GNUC__)
+  __builtin_prefetch(address, 1);
+#else
+  static_cast<void>(address);
+#endif
 }
 
 /// Reflects a coordinate that may lie beyond `size` back into [0, size].
@@ -70,6 +81,7 @@ Synthesizer::Synthesizer(SynthesisSettings settings)
   factors_.resize(blocks, 1);
   sums_.resize(settings_.channels);
   squares_.resize(settings_.channels);
+  channel_variances_.resize(settings_.channels);
   untouched_blocks_ = blocks;
   stats_.blocks = blocks;
   for (std::size_t b = 0; b < blocks; ++b) {
@@ -98,7 +110,9 @@ void Synthesizer::set_stop(const StopRule& stop) {
   if (samples < static_cast<double>(sample_limit_)) {
     sample_limit_ = static_cast<std::uint64_t>(samples);
   }
-  threshold_ = static_cast<float>(stop.aliasing_threshold * stop.aliasing_threshold);
+  // Not infinite, so that blocks without a sample, whose priority is, still get theirs.
+  threshold_ = static_cast<float>(std::min(stop.aliasing_threshold * stop.aliasing_threshold,
+                                           double{std::numeric_limits<float>::max()}));
 }
 
 std::size_t Synthesizer::request(std::span<Request> out) {
@@ -190,6 +204,17 @@ void Synthesizer::visit_neighbours(std::uint32_t block, std::uint32_t index,
   }
 }
 
+/// Calls visit(block) for each of the up to four blocks that share an edge with this one.
+template <class Visitor>
+void Synthesizer::visit_beside(std::uint32_t block, Visitor&& visit) const {
+  const auto columns = static_cast<std::uint32_t>(grid_.blocks_x);
+  const std::uint32_t x = block % columns;
+  if (x > 0) visit(block - 1);
+  if (x + 1 < columns) visit(block + 1);
+  if (block >= columns) visit(block - columns);
+  if (block + columns < queue_.size()) visit(block + columns);
+}
+
 bool Synthesizer::asked_by_neighbour(std::uint32_t block, std::uint32_t index) const {
   bool asked = false;
   visit_neighbours(block, index, [&](std::uint32_t other, std::uint32_t other_index) {
@@ -261,7 +286,13 @@ void Synthesizer::give_back(std::span<const Request> requests) {
 
 void Synthesizer::finish_wave() {
   const std::size_t channels = settings_.channels;
+  // The states of blocks lie all over the memory: fetch those that come soon.
+  constexpr std::size_t ahead = 6;
   for (std::size_t i = 0; i < slots_.size(); ++i) {
+    if (i + ahead < slots_.size()) {
+      const float* state = state_of(slots_[i + ahead].block);
+      for (std::size_t at = 0; at < channels * max_terms; at += 16) prefetch(state + at);
+    }
     route(slots_[i], slot_values_.data() + i * channels);
   }
   stats_.samples += slots_.size();
@@ -272,6 +303,7 @@ void Synthesizer::finish_wave() {
     rescale();
   } else {
     for (const std::uint32_t block : touched_) queue_.update(block, priority_of(block));
+    if (settings_.quantization) revise_neighbours();
   }
   for (const std::uint32_t block : touched_) in_wave_[block] = 0;
   touched_.clear();
@@ -335,19 +367,19 @@ void Synthesizer::advance(std::uint32_t block) {
 }
 
 void Synthesizer::rescale() {
-  double variance = 0;
-  double mean_square = 0;
+  double sum = 0;
   const double count = static_cast<double>(std::max<std::uint64_t>(corners_, 1));
   for (std::size_t c = 0; c < settings_.channels; ++c) {
     const double mean = sums_[c] / count;
-    variance += squares_[c] / count - mean * mean;
-    mean_square += squares_[c] / count;
+    const double mean_square = squares_[c] / count;
+    // A flat first impression leaves some doubt, in proportion to the level, so that blocks stay in
+    // order.
+    const double least = std::max(1e-6 * mean_square, 1e-30);
+    const double variance = std::max(mean_square - mean * mean, least);
+    channel_variances_[c] = static_cast<float>(variance);
+    sum += variance;
   }
-  // A flat first impression leaves some doubt, in proportion to the level, so that blocks stay in
-  // order.
-  const double least = std::max(1e-6 * mean_square, 1e-30);
-  variance_ =
-      static_cast<float>(std::max(variance, least) / static_cast<double>(settings_.channels));
+  variance_ = static_cast<float>(sum / static_cast<double>(settings_.channels));
   for (std::size_t b = 0; b < queue_.size(); ++b) {
     queue_.update(b, priority_of(static_cast<std::uint32_t>(b)));
   }
@@ -357,7 +389,58 @@ float Synthesizer::priority_of(std::uint32_t block) const {
   const std::uint32_t count = counts_[block];
   if (count == 0) return std::numeric_limits<float>::infinity();
   if (count >= settings_.max_samples_per_block) return BlockQueue::absent;
+  if (settings_.quantization) {
+    // The error falls with the number of samples; so it is worth error / samples to take one more.
+    const float error = quantized_error_of(block);
+    const auto tolerance = static_cast<float>(settings_.quantization->tolerance);
+    const bool done = error <= tolerance && count >= QuantizationTarget::least_samples;
+    return done ? 0 : factors_[block] * std::max(error, tolerance) / static_cast<float>(count);
+  }
   return factors_[block] * metric_.priority(variations_[block], count, variance_);
+}
+
+void Synthesizer::revise_neighbours() {
+  for (const std::uint32_t block : touched_) {
+    visit_beside(block, [&](std::uint32_t other) {
+      const bool done = queue_.priority(other) == 0;
+      if (done && in_wave_[other] == 0) queue_.update(other, priority_of(other));
+    });
+  }
+}
+
+float Synthesizer::residual_variance(std::uint32_t block, std::size_t channel,
+                                     float& freedom) const {
+  const std::uint32_t count = counts_[block];
+  const std::size_t terms = count > 0 ? refiner_.list().terms(count - 1) : 0;
+  freedom = static_cast<float>(count > terms ? count - terms : 1);
+  return refiner_.squared_residuals(state_of(block), channel) / freedom;
+}
+
+float Synthesizer::quantized_error_of(std::uint32_t block) const {
+  // A regular pattern may look flat on the first samples of a whole block. Its neighbours know
+  // better: they count as some samples with their own residuals.
+  constexpr float neighbours_freedom = 16;
+  const std::uint32_t count = counts_[block];
+  float error = 0;
+  std::array<float, max_terms> coefficients;
+  for (std::size_t c = 0; c < settings_.channels; ++c) {
+    float freedom = 0, others_freedom = 0, others = 0, neighbours = 0;
+    const float own = residual_variance(block, c, freedom);
+    visit_beside(block, [&](std::uint32_t other) {
+      others += residual_variance(other, c, others_freedom);
+      ++neighbours;
+    });
+    float residual = own;
+    if (neighbours > 0) {
+      residual = (own * freedom + others / neighbours * neighbours_freedom) /
+                 (freedom + neighbours_freedom);
+    }
+    residual += metric_.priority(0, count, channel_variances_[c]);
+    refiner_.coefficients(state_of(block), count, c, coefficients);
+    error += quantized_error(settings_.quantization->steps[c], coefficients,
+                             refiner_.list().variances(count - 1), residual);
+  }
+  return error;
 }
 
 FrequencyImage Synthesizer::image() const {
@@ -369,6 +452,31 @@ FrequencyImage Synthesizer::image() const {
     image.samples(x, y) = counts_[b];
     for (std::size_t c = 0; c < settings_.channels; ++c) {
       refiner_.coefficients(state_of(b), counts_[b], c, image.coefficients(x, y, c));
+    }
+  }
+  return image;
+}
+
+FrequencyImage Synthesizer::finished_image(const FinishSettings& settings) const {
+  const std::lock_guard lock(mutex_);
+  FrequencyImage image(settings_.width, settings_.height, settings_.channels,
+                       CoefficientMeaning::pixel_average);
+  PixelFinisher finisher(settings_.shared_list, settings);
+  std::vector<std::uint32_t> order(queue_.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return counts_[a] < counts_[b]; });
+  std::array<float, max_terms> coefficients;
+  for (const std::uint32_t block : order) {
+    const std::size_t x = block % grid_.blocks_x;
+    const std::size_t y = block / grid_.blocks_x;
+    const std::uint32_t count = counts_[block];
+    image.samples(x, y) = count;
+    finisher.advance(count);
+    for (std::size_t c = 0; c < settings_.channels; ++c) {
+      refiner_.coefficients(state_of(block), count, c, coefficients);
+      finisher.finish(coefficients, refiner_.pixel_sums(state_of(block), c),
+                      image.coefficients(x, y, c));
     }
   }
   return image;

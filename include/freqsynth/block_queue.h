@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <limits>
 #include <vector>
@@ -58,9 +59,10 @@ inline std::size_t BlockQueue::top() const {
   for (std::size_t level = levels_.size() - 1; level > 0; --level) {
     const float best = levels_[level][place];
     const float* group = levels_[level - 1].data() + place * arity;
-    std::size_t winner = 0;
-    while (winner < arity - 1 && group[winner] != best) ++winner;
-    place = place * arity + winner;
+    // Without branches, for which member wins cannot be foretold.
+    unsigned winners = 0;
+    for (std::size_t i = 0; i < arity; ++i) winners |= (group[i] == best ? 1u : 0u) << i;
+    place = place * arity + static_cast<std::size_t>(std::countr_zero(winners));
   }
   return place;
 }

@@ -31,6 +31,10 @@ struct Frequency {
 /// amplitude G of the plain cosine product. `term` is a zig-zag number.
 [[nodiscard]] constexpr double amplitude_of_coefficient(std::size_t term);
 
+/// Mean of zig-zag term `term` over a pixel, relative to its value at the pixel's centre: sinc(u /
+/// 16) sinc(v / 16) with sinc(z) = sin(pi z) / (pi z), the same for all pixels of the block.
+[[nodiscard]] double pixel_mean_of_term(std::size_t term);
+
 /// Writes cos(pi u s) cos(pi v t) (eq. 28) of the first `terms.size()` (at most 64) zig-zag terms.
 /// (s, t) may lie anywhere, also outside the block, where the even periodic extension is meant.
 void evaluate_terms(double s, double t, std::span<double> terms);

@@ -6,6 +6,7 @@
 /// many images.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -63,6 +64,10 @@ class InverseList {
   [[nodiscard]] std::span<const double> gain(std::size_t index) const;
   /// The bordering vector -J^-1 B of the term added after `index`; empty when none is.
   [[nodiscard]] std::span<const double> border(std::size_t index) const;
+  /// Expected squared error of each coefficient F after `index`, per unit of residual variance: for
+  /// terms in the fit (J^-1)(i, i) in the scale of F; for the others what they may hold, when the
+  /// energy that the fit leaves over is spread like that of edges, 1 / frequency^3.
+  [[nodiscard]] std::span<const float, max_terms> variances(std::size_t index) const;
   /// What the hot path reads: gains rounded to float.
   [[nodiscard]] const detail::SampleRow& row(std::size_t index) const;
 
@@ -88,6 +93,7 @@ struct InverseList::Chunk {
   struct Cold {
     std::size_t terms = 0;
     std::vector<double> inverse, gain, border;
+    std::array<float, max_terms> variances;
     std::unique_ptr<detail::BorderRow> border_row;
   } cold[chunk_size];
 };
@@ -113,6 +119,9 @@ inline std::span<const double> InverseList::gain(std::size_t index) const {
 }
 inline std::span<const double> InverseList::border(std::size_t index) const {
   return chunk_of(index).cold[index % chunk_size].border;
+}
+inline std::span<const float, max_terms> InverseList::variances(std::size_t index) const {
+  return chunk_of(index).cold[index % chunk_size].variances;
 }
 inline const detail::SampleRow& InverseList::row(std::size_t index) const {
   return chunk_of(index).rows[index % chunk_size];

@@ -2,8 +2,9 @@
 /// The paper's block refiner (sections 4.1 and 4.2): least squares in the first T cosine terms.
 ///
 /// A block's state is 64 floats per channel: the amplitudes X = G(u, v) (eq. 24) of the T terms in
-/// the fit, and the right-hand sides Y (eq. 23) of the others. With the shared gain k = J^-1 A a
-/// sample S changes X by k (S - A . X), which is eq. 25 at O(T) instead of O(T^2).
+/// the fit, and the right-hand sides Y (eq. 23) of the others; and then, for all channels, the sums
+/// of squared residuals (eq. 11). With the shared gain k = J^-1 A a sample S changes X by k (S - A
+/// . X), which is eq. 25 at O(T) instead of O(T^2).
 #pragma once
 
 #include <cmath>
@@ -42,7 +43,9 @@ class LeastSquaresRefiner {
   [[nodiscard]] const InverseList& list() const { return *list_; }
   [[nodiscard]] std::size_t channels() const { return channels_; }
   /// Floats in the state of a block. States are aligned to 32 bytes.
-  [[nodiscard]] std::size_t state_size() const { return channels_ * max_terms; }
+  [[nodiscard]] std::size_t state_size() const {
+    return 2 * channels_ * max_terms + (channels_ + 15) / 16 * 16;
+  }
 
   /// Puts a state to "no sample yet".
   void reset(float* state) const;
@@ -61,9 +64,21 @@ class LeastSquaresRefiner {
   void coefficients(const float* state, std::size_t samples, std::size_t channel,
                     std::span<float, max_terms> out) const;
 
+  /// Sum of the squared differences (eq. 11) between the samples of a channel and their fit.
+  [[nodiscard]] float squared_residuals(const float* state, std::size_t channel) const {
+    return state[2 * channels_ * max_terms + channel];
+  }
+
+  /// Sums of a channel's samples in each of the 64 pixels of the block, row by row. A sample on the
+  /// border between pixels counts half, or a quarter, for each.
+  [[nodiscard]] std::span<const float, max_terms> pixel_sums(const float* state,
+                                                             std::size_t channel) const {
+    return std::span<const float, max_terms>(state + (channels_ + channel) * max_terms, max_terms);
+  }
+
  private:
   float absorb_channelwise(float* state, std::size_t index, const float* values) const;
-  void start(float* state, std::size_t index, float value) const;
+  void start(float* state, float* sums, std::size_t index, float value) const;
 
   std::shared_ptr<const InverseList> list_;
   std::size_t channels_;
@@ -125,7 +140,9 @@ inline float LeastSquaresRefiner::absorb(float* state, std::size_t index,
       return absorb_channelwise(state, index, values);
     }
   }
-  return detail::absorb_sample(list_->row(index), state, values, weights_.data(), channels_);
+  return detail::absorb_sample(list_->row(index), state, state + channels_ * max_terms,
+                               state + 2 * channels_ * max_terms, values, weights_.data(),
+                               channels_);
 }
 
 inline float LeastSquaresRefiner::absorb_channelwise(float* state, std::size_t index,
@@ -135,22 +152,26 @@ inline float LeastSquaresRefiner::absorb_channelwise(float* state, std::size_t i
     float* own = state + c * max_terms;
     const bool usable = is_usable_sample(values[c]);
     if (!std::isnan(own[0])) {
-      change += detail::absorb_sample(list_->row(index), own, usable ? values + c : nullptr,
-                                      weights_.data() + c, 1);
+      change += detail::absorb_sample(list_->row(index), own, own + channels_ * max_terms,
+                                      state + 2 * channels_ * max_terms + c,
+                                      usable ? values + c : nullptr, weights_.data() + c, 1);
     } else if (usable) {
-      start(own, index, values[c]);
+      start(own, own + channels_ * max_terms, index, values[c]);
     }
   }
   return change;
 }
 
-inline void LeastSquaresRefiner::start(float* state, std::size_t index, float value) const {
+inline void LeastSquaresRefiner::start(float* state, float* sums, std::size_t index,
+                                       float value) const {
   // As if all samples up to this one had been equal to it: a constant, whose fit is exact.
   state[0] = value;
   const std::size_t terms = list_->terms(index);
   for (std::size_t j = 0; j <= index; ++j) {
     const detail::SampleRow& row = list_->row(j);
     for (std::size_t i = terms; i < max_terms; ++i) state[i] += value * (row.fit[i] + row.rest[i]);
+    for (std::size_t p = 0; p < row.pixel_count; ++p)
+      sums[row.pixels[p]] += value * row.pixel_weight;
   }
 }
 

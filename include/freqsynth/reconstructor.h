@@ -24,8 +24,8 @@ struct ReconstructionSettings {
   /// Applies to CoefficientMeaning::point_function; finished pixels are not filtered again.
   ButterworthSettings butterworth = {};
   PixelFilter pixel_filter = PixelFilter::box;
-  bool clamp_negative =
-      false;  ///< replace values below zero, the ringing beside bright edges, by zero
+  /// Replace values below zero, the ringing beside bright edges, by zero.
+  bool clamp_negative = false;
 };
 
 /// Memory for an image, the caller's own. Strides count floats and may be negative.

@@ -70,4 +70,35 @@ concept BatchSampler = std::invocable<F&, std::span<const Request>, std::span<fl
 template <class F>
 concept Sampler = ScalarSampler<F> || BatchSampler<F>;
 
+namespace detail {
+
+/// Number of values that a sampler returns, or `unknown` for a batch sampler, which does not say.
+template <Sampler S>
+constexpr std::size_t sampler_channels(std::size_t unknown) {
+  if constexpr (BatchSampler<S>) {
+    return unknown;
+  } else {
+    return SampleTraits<std::remove_cvref_t<std::invoke_result_t<S&, double, double>>>::channels;
+  }
+}
+
+/// Calls a sampler of either form for a run of requests. `done` counts the requests whose values
+/// are complete, also when the sampler throws.
+template <class S>
+void call_sampler(S& sampler, std::span<const Request> requests, std::span<float> values,
+                  std::size_t& done) {
+  if constexpr (BatchSampler<S>) {
+    sampler(requests, values);
+    done = requests.size();
+  } else {
+    using Traits = SampleTraits<std::remove_cvref_t<std::invoke_result_t<S&, double, double>>>;
+    for (const Request& request : requests) {
+      Traits::store(sampler(request.x, request.y), values.data() + done * Traits::channels);
+      ++done;
+    }
+  }
+}
+
+}  // namespace detail
+
 }  // namespace freqsynth

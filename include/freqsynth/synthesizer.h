@@ -25,7 +25,9 @@
 #include "freqsynth/frequency_image.h"
 #include "freqsynth/inverse_list.h"
 #include "freqsynth/least_squares_refiner.h"
+#include "freqsynth/pixel_finisher.h"
 #include "freqsynth/priority.h"
+#include "freqsynth/quantization_target.h"
 #include "freqsynth/sampler.h"
 
 namespace freqsynth {
@@ -47,6 +49,9 @@ struct SynthesisSettings {
   /// Factor on the priority of each block, row by row, finite and >= 0; empty: 1. 0 leaves a block
   /// at its first sample.
   std::vector<float> importance = {};
+  /// When set, blocks are chosen by what their errors may change after quantisation, and the
+  /// synthesis ends by itself when no block is above the target's tolerance.
+  std::optional<QuantizationTarget> quantization = std::nullopt;
   /// A list to share with other images; null: one is built from `list`, which is otherwise not
   /// read.
   std::shared_ptr<const InverseList> shared_list = nullptr;
@@ -66,7 +71,7 @@ struct StopRule {
 
 enum class StopReason {
   samples,    ///< the number of samples is reached
-  threshold,  ///< every block is below the aliasing threshold
+  threshold,  ///< every block is below the aliasing threshold, or meets the quantization target
   exhausted,  ///< every block has its most samples, or there is no block
   cancelled,  ///< the progress callback said so
   waiting     ///< positions handed out by request() elsewhere are still owed
@@ -90,9 +95,8 @@ struct BadSample {
 /// What run() did.
 struct RunReport {
   StopReason reason = StopReason::samples;
-  double sampler_seconds =
-      0;                    ///< wall-clock time with the host's sampler (and its executor) at work
-  double core_seconds = 0;  ///< the rest: choosing, refining
+  double sampler_seconds = 0;  ///< wall-clock time with the sampler and its executor at work
+  double core_seconds = 0;     ///< the rest: choosing, refining
 };
 
 /// A progress callback that never cancels.
@@ -107,7 +111,7 @@ class Synthesizer {
   /// \throws std::invalid_argument naming the field and the value when a setting is out of range.
   explicit Synthesizer(SynthesisSettings settings);
 
-  /// Sets when request() and run() stop. At first there is no limit.
+  /// Sets when request() and run() stop, from the next wave on. At first there is no limit.
   /// \throws std::invalid_argument when a rule is negative or not a number.
   void set_stop(const StopRule& stop);
 
@@ -142,8 +146,14 @@ class Synthesizer {
   RunReport run(S&& sampler, const StopRule& stop, E&& executor = E{},
                 Progress&& progress = Progress{}, std::size_t batch = 1024);
 
-  /// The image as it is: the coefficients of all samples of completed waves.
+  /// The image as the paper has it: the fit of each block to the samples of completed waves, not
+  /// filtered (CoefficientMeaning::point_function).
   [[nodiscard]] FrequencyImage image() const;
+
+  /// The best image that the samples of completed waves allow: finished pixels
+  /// (CoefficientMeaning::pixel_average), see PixelFinisher.
+  /// \throws std::invalid_argument when a setting is out of range.
+  [[nodiscard]] FrequencyImage finished_image(const FinishSettings& settings = {}) const;
 
   [[nodiscard]] std::size_t channels() const { return settings_.channels; }
   [[nodiscard]] const SynthesisSettings& settings() const { return settings_; }
@@ -177,6 +187,11 @@ class Synthesizer {
   void advance(std::uint32_t block);
   void rescale();
   float priority_of(std::uint32_t block) const;
+  float quantized_error_of(std::uint32_t block) const;
+  float residual_variance(std::uint32_t block, std::size_t channel, float& freedom) const;
+  void revise_neighbours();
+  template <class Visitor>
+  void visit_beside(std::uint32_t block, Visitor&& visit) const;
   template <class Visitor>
   void visit_neighbours(std::uint32_t block, std::uint32_t index, Visitor&& visit) const;
 
@@ -214,7 +229,8 @@ class Synthesizer {
   std::vector<double> sums_, squares_;
   std::uint64_t corners_ = 0;
   std::size_t untouched_blocks_;
-  float variance_ = 0;
+  std::vector<float> channel_variances_;
+  float variance_ = 0;  // mean over the channels
 
   std::uint64_t sample_limit_ = std::numeric_limits<std::uint64_t>::max();
   float threshold_ = 0;  // squared
@@ -227,23 +243,6 @@ class Synthesizer {
 
 namespace detail {
 
-/// Calls a sampler of either form for a run of requests. `done` counts the requests whose values
-/// are complete, also when the sampler throws.
-template <class S>
-void call_sampler(S& sampler, std::span<const Request> requests, std::span<float> values,
-                  std::size_t& done) {
-  if constexpr (BatchSampler<S>) {
-    sampler(requests, values);
-    done = requests.size();
-  } else {
-    using Traits = SampleTraits<std::remove_cvref_t<std::invoke_result_t<S&, double, double>>>;
-    for (const Request& request : requests) {
-      Traits::store(sampler(request.x, request.y), values.data() + done * Traits::channels);
-      ++done;
-    }
-  }
-}
-
 /// \throws std::invalid_argument when the sampler does not return `channels` values, or batch is 0.
 void check_run(std::size_t sampler_channels, std::size_t channels, std::size_t batch);
 
@@ -253,12 +252,7 @@ template <Sampler S, Executor E, class Progress>
 RunReport Synthesizer::run(S&& sampler, const StopRule& stop, E&& executor, Progress&& progress,
                            std::size_t batch) {
   using Clock = std::chrono::steady_clock;
-  std::size_t sampler_channels = channels();
-  if constexpr (!BatchSampler<S>) {
-    using Value = std::remove_cvref_t<std::invoke_result_t<S&, double, double>>;
-    sampler_channels = detail::SampleTraits<Value>::channels;
-  }
-  detail::check_run(sampler_channels, channels(), batch);
+  detail::check_run(detail::sampler_channels<S>(channels()), channels(), batch);
   set_stop(stop);
 
   struct Part {

@@ -1,0 +1,34 @@
+# The component freqsynth::jpeg, the only part of the library that needs another one: libjpeg.
+if(PROJECT_IS_TOP_LEVEL)
+  set(jpeg_default AUTO)
+else()
+  set(jpeg_default OFF)
+endif()
+set(FREQSYNTH_JPEG ${jpeg_default} CACHE STRING
+  "Build freqsynth::jpeg: ON, OFF, or AUTO: when libjpeg is found")
+set_property(CACHE FREQSYNTH_JPEG PROPERTY STRINGS AUTO ON OFF)
+
+if(FREQSYNTH_JPEG STREQUAL "AUTO")
+  find_package(JPEG QUIET)
+elseif(FREQSYNTH_JPEG)
+  find_package(JPEG REQUIRED)
+else()
+  return()
+endif()
+if(NOT JPEG_FOUND)
+  message(STATUS "libjpeg not found: without freqsynth::jpeg")
+  return()
+endif()
+
+add_library(freqsynth_jpeg src/jpeg.cpp src/jpeg_file.cpp)
+add_library(freqsynth::jpeg ALIAS freqsynth_jpeg)
+target_sources(freqsynth_jpeg PUBLIC
+  FILE_SET HEADERS BASE_DIRS include FILES include/freqsynth/jpeg.h)
+target_link_libraries(freqsynth_jpeg PUBLIC freqsynth PRIVATE JPEG::JPEG)
+set_target_properties(freqsynth_jpeg PROPERTIES
+  EXPORT_NAME jpeg
+  VERSION ${PROJECT_VERSION}
+  SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
+  INSTALL_RPATH "$ORIGIN"
+  VERIFY_INTERFACE_HEADER_SETS ${PROJECT_IS_TOP_LEVEL})
+freqsynth_own_target(freqsynth_jpeg)
