@@ -17,10 +17,10 @@ while [[ $# -gt 0 ]]; do
   shift
 done
 
-packages=(cmake g++ ninja-build libgtest-dev libgmock-dev)
+packages=(cmake g++ ninja-build libgtest-dev libgmock-dev libjpeg62-turbo-dev)
 if [[ -z $sanitize ]]; then
   packages+=(clang-format libbenchmark-dev libeigen3-dev libfftw3-dev libopenblas-dev
-    libopenimageio-dev pkg-config)
+    libjpeg-turbo-progs libopenimageio-dev pkg-config)
 fi
 if [[ -n $clang ]]; then
   packages+=(clang)

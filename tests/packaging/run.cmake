@@ -20,23 +20,22 @@ function(configure source build)
 endfunction()
 
 function(build_consumer)
-  configure("${CMAKE_CURRENT_LIST_DIR}/consumer" "${scratch}/consumer"
+  configure("${CMAKE_CURRENT_LIST_DIR}/${CONSUMER}" "${SCRATCH}/${CONSUMER}"
     "-DCMAKE_BUILD_TYPE=${CONFIG}" "-DVERSION=${VERSION}" ${ARGN})
-  run("${CMAKE_COMMAND}" --build "${scratch}/consumer" --config "${CONFIG}")
+  run("${CMAKE_COMMAND}" --build "${SCRATCH}/${CONSUMER}" --config "${CONFIG}")
   find_program(consumer consumer NO_CACHE REQUIRED NO_DEFAULT_PATH
-    PATHS "${scratch}/consumer" "${scratch}/consumer/${CONFIG}")
+    PATHS "${SCRATCH}/${CONSUMER}" "${SCRATCH}/${CONSUMER}/${CONFIG}")
   expect_version("${consumer}")
 endfunction()
 
 function(install_moved build prefix)
-  run("${CMAKE_COMMAND}" --install "${build}" --config "${CONFIG}" --prefix "${scratch}/first")
+  run("${CMAKE_COMMAND}" --install "${build}" --config "${CONFIG}" --prefix "${SCRATCH}/first")
   file(REMOVE_RECURSE "${prefix}")
-  file(RENAME "${scratch}/first" "${prefix}")
+  file(RENAME "${SCRATCH}/first" "${prefix}")
 endfunction()
 
-set(scratch "${WORK_DIR}/${CASE}")
-file(REMOVE_RECURSE "${scratch}")
-file(MAKE_DIRECTORY "${scratch}")
+file(REMOVE_RECURSE "${SCRATCH}")
+file(MAKE_DIRECTORY "${SCRATCH}")
 
 if(CASE STREQUAL "install")
   install_moved("${BUILD_DIR}" "${PREFIX}")
@@ -56,17 +55,21 @@ elseif(CASE STREQUAL "find_package")
 
 elseif(CASE STREQUAL "pkg_config")
   find_program(pkg_config NAMES pkg-config pkgconf REQUIRED)
-  file(GLOB_RECURSE pc "${PREFIX}/freqsynth.pc")
+  set(package freqsynth)
+  if(CONSUMER STREQUAL "jpeg_consumer")
+    set(package freqsynth-jpeg)
+  endif()
+  file(GLOB_RECURSE pc "${PREFIX}/${package}.pc")
   cmake_path(GET pc PARENT_PATH pc_dir)
   cmake_path(GET pc_dir PARENT_PATH lib_dir)
   set(ENV{PKG_CONFIG_PATH} "${pc_dir}")
   set(ENV{LD_LIBRARY_PATH} "${lib_dir}")
-  execute_process(COMMAND "${pkg_config}" --cflags --libs "freqsynth = ${VERSION}"
+  execute_process(COMMAND "${pkg_config}" --cflags --libs "${package} = ${VERSION}"
     OUTPUT_VARIABLE flags COMMAND_ERROR_IS_FATAL ANY)
   separate_arguments(flags UNIX_COMMAND "${flags}")
-  file(GLOB sources "${CMAKE_CURRENT_LIST_DIR}/consumer/*.cpp")
-  run("${CXX}" -std=c++20 ${sources} ${flags} -o "${scratch}/consumer")
-  expect_version("${scratch}/consumer")
+  file(GLOB sources "${CMAKE_CURRENT_LIST_DIR}/${CONSUMER}/*.cpp")
+  run("${CXX}" -std=c++20 ${sources} ${flags} -o "${SCRATCH}/consumer")
+  expect_version("${SCRATCH}/consumer")
 
 elseif(CASE STREQUAL "build_tree")
   build_consumer("-Dfreqsynth_DIR=${BUILD_DIR}" "-DEXPECTED_ROOT=${BUILD_DIR}")
@@ -76,15 +79,43 @@ elseif(CASE STREQUAL "add_subdirectory")
 
 elseif(CASE STREQUAL "shared")
   set(CONFIG Debug)
-  configure("${SOURCE_DIR}" "${scratch}/build" -DBUILD_SHARED_LIBS=ON -DCMAKE_BUILD_TYPE=Debug
+  configure("${SOURCE_DIR}" "${SCRATCH}/build" -DBUILD_SHARED_LIBS=ON -DCMAKE_BUILD_TYPE=Debug
     -DFREQSYNTH_BUILD_TESTS=OFF -DFREQSYNTH_BUILD_EXAMPLES=OFF -DFREQSYNTH_BUILD_BENCHMARKS=OFF)
-  run("${CMAKE_COMMAND}" --build "${scratch}/build" --config Debug)
-  install_moved("${scratch}/build" "${scratch}/prefix")
-  file(GLOB_RECURSE library "${scratch}/prefix/*/libfreqsynth.so.${VERSION}")
+  run("${CMAKE_COMMAND}" --build "${SCRATCH}/build" --config Debug)
+  install_moved("${SCRATCH}/build" "${SCRATCH}/prefix")
+  file(GLOB_RECURSE library "${SCRATCH}/prefix/*/libfreqsynth.so.${VERSION}")
   if(NOT library)
     message(FATAL_ERROR "no shared library of version ${VERSION} was installed")
   endif()
-  build_consumer("-DCMAKE_PREFIX_PATH=${scratch}/prefix" "-DEXPECTED_ROOT=${scratch}/prefix")
+  build_consumer("-DCMAKE_PREFIX_PATH=${SCRATCH}/prefix" "-DEXPECTED_ROOT=${SCRATCH}/prefix")
+  file(GLOB_RECURSE library "${SCRATCH}/prefix/*/libfreqsynth_jpeg.so.${VERSION}")
+  if(library)
+    set(CONSUMER jpeg_consumer)
+    build_consumer("-DCMAKE_PREFIX_PATH=${SCRATCH}/prefix")
+  endif()
+
+elseif(CASE STREQUAL "without_libjpeg")
+  # The library is built without the component, and says so.
+  execute_process(
+    COMMAND "${CMAKE_COMMAND}" -S "${SOURCE_DIR}" -B "${SCRATCH}/build" -G "${GENERATOR}"
+      "-DCMAKE_CXX_COMPILER=${CXX}" -DCMAKE_DISABLE_FIND_PACKAGE_JPEG=ON
+      -DFREQSYNTH_BUILD_TESTS=OFF -DFREQSYNTH_BUILD_EXAMPLES=OFF -DFREQSYNTH_BUILD_BENCHMARKS=OFF
+    OUTPUT_VARIABLE output COMMAND_ERROR_IS_FATAL ANY)
+  if(NOT output MATCHES "libjpeg not found: without freqsynth::jpeg")
+    message(FATAL_ERROR "no word on the missing component: ${output}")
+  endif()
+  # The installed core needs no libjpeg, the component does.
+  set(CONSUMER consumer)
+  build_consumer("-DCMAKE_PREFIX_PATH=${PREFIX}" "-DEXPECTED_ROOT=${PREFIX}"
+    -DCMAKE_DISABLE_FIND_PACKAGE_JPEG=ON)
+  execute_process(
+    COMMAND "${CMAKE_COMMAND}" -S "${CMAKE_CURRENT_LIST_DIR}/jpeg_consumer"
+      -B "${SCRATCH}/refused" -G "${GENERATOR}" "-DCMAKE_CXX_COMPILER=${CXX}"
+      "-DVERSION=${VERSION}" "-DCMAKE_PREFIX_PATH=${PREFIX}" -DCMAKE_DISABLE_FIND_PACKAGE_JPEG=ON
+    RESULT_VARIABLE result ERROR_VARIABLE errors)
+  if(result EQUAL 0 OR NOT errors MATCHES "jpeg needs libjpeg")
+    message(FATAL_ERROR "expected a refusal for want of libjpeg, got ${result}: ${errors}")
+  endif()
 
 else()
   message(FATAL_ERROR "unknown case ${CASE}")

@@ -45,7 +45,7 @@ class Picture {
     freqsynth::Synthesizer engine({.width = size, .height = size});
     engine.run([&](double x, double y) { return at(x, y); },
                {.samples_per_pixel = samples_per_pixel});
-    return engine.image();
+    return engine.finished_image();
   }
 
  private:
@@ -75,7 +75,7 @@ TEST(Quality, OneSamplePerPixelBeatsOneJitteredSample) {
 }
 
 TEST(Quality, ErrorFallsWithSamples) {
-  const Picture picture("fan");
+  const Picture picture("chess");
   const auto reference = picture.jittered(12, 1);
   double before = 1e9;
   for (const double rate : {1.0 / 64, 1.0 / 16, 1.0 / 4, 1.0}) {
