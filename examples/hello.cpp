@@ -14,7 +14,7 @@ int main() {
 
   std::ofstream file("hello.pgm", std::ios::binary);
   file << "P5 256 256 255\n";
-  for (const float value : freqsynth::reconstruct(engine.image())) {
+  for (const float value : freqsynth::reconstruct(engine.finished_image())) {
     file.put(static_cast<char>(std::lround(255 * std::fmin(std::fmax(value, 0), 1))));
   }
   return file ? 0 : 1;

@@ -28,7 +28,7 @@ int main() {
   }
 
   // The result is a function: here its mean over each pixel of an image of twice the size.
-  const std::vector<float> pixels = freqsynth::reconstruct(engine.image(), {}, 2);
+  const std::vector<float> pixels = freqsynth::reconstruct(engine.finished_image(), {}, 2);
   std::printf("%zu values from %llu rays\n", pixels.size(),
               static_cast<unsigned long long>(engine.stats().samples));
 }

@@ -5,7 +5,8 @@
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
-"$root/.ci/install_missing" cmake g++ ninja-build pkg-config libopenimageio-dev
+"$root/.ci/install_missing" cmake g++ ninja-build pkg-config libjpeg62-turbo-dev \
+  libopenimageio-dev
 if command -v ninja >/dev/null; then
   export CMAKE_GENERATOR=${CMAKE_GENERATOR:-Ninja}
 fi

@@ -81,6 +81,13 @@ void write_stats(const Options& options, const freqsynth::SynthesisStats& stats,
   write_text(options.stats, text.data());
 }
 
+/// Finished pixels, or the paper's function where the user asks for it.
+freqsynth::FrequencyImage image_of(const freqsynth::Synthesizer& engine, const Options& options) {
+  if (options.pixel_filter == freqsynth::PixelFilter::none) return engine.image();
+  return engine.finished_image(
+      {.butterworth = options.butterworth, .residuals = !options.no_residuals});
+}
+
 Picture picture_of(const freqsynth::FrequencyImage& image, const Options& options, double scale) {
   const freqsynth::ReconstructionSettings settings{options.butterworth, options.pixel_filter, true};
   return {freqsynth::scaled_size(image.width(), scale),
@@ -158,7 +165,7 @@ void synthesize(const Options& options, const scenes::Scene& scene) {
       std::fprintf(stderr, "freqsynth_render: every block has its %zu samples\n",
                    settings.max_samples_per_block);
     }
-    const freqsynth::FrequencyImage image = engine.image();
+    const freqsynth::FrequencyImage image = image_of(engine, options);
     if (!options.output.empty() && stop == options.samples_per_pixel) {
       const Picture picture = picture_of(image, options, options.scale);
       seconds.wall =

@@ -87,7 +87,9 @@ std::optional<Options> parse_options(int argc, const char** argv) {
   parser.arg("--order %s:M", &order).help("Butterworth order (2)");
   parser.arg("--no-butterworth", &no_butterworth).help("Do not filter");
   parser.arg("--pixel-filter %s:NAME", &pixel_filter)
-      .help("none: values at the pixels' centres; box: averages over the pixels (box)");
+      .help("none: the fit at the pixels' centres; box: averages over the pixels (box)");
+  parser.arg("--no-residuals", &options.no_residuals)
+      .help("The paper's estimate: the fit alone, without what it leaves over");
   parser.arg("--scale %s:S", &scale).help("Size of the output relative to --size (1)");
   parser.arg("--channels %s:NAME", &channels).help("rgb or gray (rgb)");
   parser.arg("--zone-frequency %s:F", &zone_frequency)

@@ -26,6 +26,7 @@ struct Options {
   double terms_every = 2.5;
   freqsynth::ButterworthSettings butterworth;
   freqsynth::PixelFilter pixel_filter = freqsynth::PixelFilter::box;
+  bool no_residuals = false;
   double scale = 1;
   bool gray = false;
   std::optional<double> zone_frequency;

@@ -1,0 +1,132 @@
+#include "coefficients.h"
+
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imagebufalgo.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <stdexcept>
+#include <utility>
+
+#include "freqsynth/dct.h"
+#include "freqsynth/display_encoding.h"
+#include "freqsynth/reconstructor.h"
+#ifdef FREQSYNTH_HAS_JPEG
+#include "freqsynth/jpeg.h"
+#endif
+
+namespace {
+
+using freqsynth::block_size;
+
+/// The inverse of the transfer function of sRGB.
+float linear_of(float encoded) {
+  return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
+}
+
+bool is_linear(const OIIO::ImageSpec& spec) {
+  const std::string space = spec.get_string_attribute("oiio:ColorSpace");
+  if (OIIO::Strutil::iequals(space, "sRGB")) return false;
+  return spec.format.is_floating_point() || OIIO::Strutil::iequals(space, "linear") ||
+         space == "scene_linear";
+}
+
+/// Linear values, one channel or three.
+Picture read_picture(const std::string& file) {
+  // Without this hint the colours would be multiplied by the alpha that is to be ignored.
+  OIIO::ImageSpec hints;
+  hints.attribute("oiio:UnassociatedAlpha", 1);
+  OIIO::ImageBuf stored(file, 0, 0, nullptr, &hints);
+  if (!stored.read(0, 0, /*force=*/true, OIIO::TypeDesc::FLOAT)) {
+    throw std::runtime_error(file + ": " + stored.geterror());
+  }
+  const bool linear = is_linear(stored.nativespec());
+  const OIIO::ImageBuf upright = OIIO::ImageBufAlgo::reorient(stored);
+  OIIO::ROI roi = upright.roi();
+  roi.chend = roi.nchannels() >= 3 ? 3 : 1;
+  Picture picture{static_cast<std::size_t>(roi.width()),
+                  static_cast<std::size_t>(roi.height()),
+                  static_cast<std::size_t>(roi.nchannels()),
+                  {}};
+  picture.pixels.resize(picture.width * picture.height * picture.channels);
+  if (picture.pixels.empty() ||
+      !upright.get_pixels(roi, OIIO::TypeDesc::FLOAT, picture.pixels.data())) {
+    throw std::runtime_error(file + ": " + upright.geterror());
+  }
+  for (float& value : picture.pixels) {
+    if (!std::isfinite(value) || value < 0) value = 0;
+    if (!linear) value = linear_of(value);
+  }
+  return picture;
+}
+
+/// Pixel that stands for pixel `i` of `size`, which may lie beyond: the picture is mirrored at its
+/// border, as cosines are.
+std::size_t mirrored(std::size_t i, std::size_t size) {
+  i %= 2 * size;
+  return i < size ? i : 2 * size - 1 - i;
+}
+
+/// Display-encodes linear values and transforms each block (eq. 1).
+freqsynth::FrequencyImage transform(Picture picture) {
+  const freqsynth::DisplayEncoding encoding;
+  const std::size_t channels = picture.channels;
+  for (std::size_t i = 0; i < picture.pixels.size(); i += channels) {
+    float* const p = &picture.pixels[i];
+    if (channels == 1) {
+      *p = encoding.encode(*p);
+    } else {
+      std::ranges::copy(encoding.encode(std::array{p[0], p[1], p[2]}), p);
+    }
+  }
+  freqsynth::FrequencyImage image(picture.width, picture.height, channels,
+                                  freqsynth::CoefficientMeaning::pixel_average);
+  std::array<float, freqsynth::max_terms> pixels{};
+  for (std::size_t by = 0; by < image.blocks_y(); ++by) {
+    for (std::size_t bx = 0; bx < image.blocks_x(); ++bx) {
+      for (std::size_t channel = 0; channel < channels; ++channel) {
+        for (std::size_t i = 0; i < pixels.size(); ++i) {
+          const std::size_t x = mirrored(bx * block_size + i % block_size, picture.width);
+          const std::size_t y = mirrored(by * block_size + i / block_size, picture.height);
+          pixels[i] = picture.pixels[(y * picture.width + x) * channels + channel];
+        }
+        freqsynth::forward_dct(pixels, image.coefficients(bx, by, channel));
+      }
+    }
+  }
+  return image;
+}
+
+#ifdef FREQSYNTH_HAS_JPEG
+/// Whatever its name is.
+bool is_jpeg(const std::string& file) {
+  std::array<char, 3> start{};
+  std::ifstream(file, std::ios::binary).read(start.data(), start.size());
+  return start == std::array{'\xff', '\xd8', '\xff'};
+}
+#endif
+
+}  // namespace
+
+Coefficients read_coefficients(const std::string& file, [[maybe_unused]] bool pixels) {
+#ifdef FREQSYNTH_HAS_JPEG
+  if (!pixels && is_jpeg(file)) return {freqsynth::dequantize(freqsynth::read_jpeg(file)), true};
+#endif
+  return {transform(read_picture(file)), false};
+}
+
+Picture picture_of(const freqsynth::FrequencyImage& image) {
+  Picture picture{image.width(), image.height(), image.channels(), freqsynth::reconstruct(image)};
+  for (std::size_t i = 0; image.channels() == 3 && i < picture.pixels.size(); i += 3) {
+    float* const p = &picture.pixels[i];
+    std::ranges::copy(freqsynth::display_rgb({p[0], p[1], p[2]}), p);
+  }
+  return linear_picture(std::move(picture));
+}
+
+Picture linear_picture(Picture display) {
+  for (float& value : display.pixels) value = linear_of(std::clamp(value, 0.0f, 255.0f) / 255);
+  return display;
+}
