@@ -1,0 +1,20 @@
+#!/usr/bin/env bash
+# Makes the pictures of this folder. On Debian, installs what is missing.
+set -euo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+"$root/.ci/install_missing" openimageio-tools
+
+out=$root/out/docs
+mkdir -p "$out"
+render() { "$root/examples/run.sh" --size 512x512 "$@"; }
+for scene in fan chess; do
+  render --scene "$scene" --spp 1 -o "$out/$scene.png" --density "$out/${scene}_density.png" \
+    --frames "$out/${scene}_frames"
+  render --scene "$scene" --reference 1 -o "$out/${scene}_jittered.png"
+  # Jittered samples, freqsynth, and where freqsynth took its samples, side by side.
+  oiiotool "$out/${scene}_jittered.png" "$out/$scene.png" \
+    "$out/${scene}_density.png" --ch 0,0,0 --chnames R,G,B \
+    --mosaic:pad=8 3x1 --compression jpeg:90 -o "$root/docs/$scene.jpg"
+  oiiotool "$out/${scene}_frames/contact_sheet.png" --resize 1044x0 --compression jpeg:90 \
+    -o "$root/docs/${scene}_frames.jpg"
+done
