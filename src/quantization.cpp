@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <stdexcept>
 #include <string>
 #include <unordered_map>
@@ -67,12 +66,8 @@ class PixelBlocks {
  public:
   PixelBlocks(const FrequencyImage& image, const ButterworthSettings& butterworth)
       : image_(image), butterworth_(butterworth) {
-    const auto sinc = [](double z) {
-      return z == 0 ? 1 : std::sin(std::numbers::pi * z) / (std::numbers::pi * z);
-    };
     for (std::size_t i = 0; i < max_terms; ++i) {
-      const Frequency f = frequency_of_term(i);
-      box_[i] = static_cast<float>(sinc(f.u / 16.0) * sinc(f.v / 16.0));
+      box_[i] = static_cast<float>(pixel_mean_of_term(i));
     }
   }
 
