@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <memory>
 #include <numeric>
 #include <random>
@@ -70,25 +71,27 @@ struct Blocks {
   }
 };
 
-struct alignas(64) State {
-  float values[channels * max_terms];
+struct alignas(64) Line {
+  float values[16];
 };
 
 void gain_path(benchmark::State& state) {
   const LeastSquaresRefiner refiner(prepared_list(), channels);
   Blocks blocks(static_cast<std::size_t>(state.range(0)));
   Values values;
-  std::vector<State> states(blocks.order.size());
-  for (State& s : states) {
-    refiner.reset(s.values);
+  const std::size_t lines = refiner.state_size() / std::size(Line{}.values);
+  std::vector<Line> states(blocks.order.size() * lines);
+  const auto state_of = [&](std::size_t block) { return states[block * lines].values; };
+  for (std::size_t block = 0; block < blocks.order.size(); ++block) {
+    refiner.reset(state_of(block));
     for (std::size_t n = 0; n < first_index; ++n) {
-      refiner.absorb(s.values, n, values.next().data());
+      refiner.absorb(state_of(block), n, values.next().data());
     }
   }
   for (auto _ : state) {
     const std::uint32_t block = blocks.next();
     benchmark::DoNotOptimize(
-        refiner.absorb(states[block].values, blocks.indices[block], values.next().data()));
+        refiner.absorb(state_of(block), blocks.indices[block], values.next().data()));
     blocks.step(block);
   }
   state.SetItemsProcessed(state.iterations());

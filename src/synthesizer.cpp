@@ -290,8 +290,14 @@ void Synthesizer::finish_wave() {
   constexpr std::size_t ahead = 6;
   for (std::size_t i = 0; i < slots_.size(); ++i) {
     if (i + ahead < slots_.size()) {
-      const float* state = state_of(slots_[i + ahead].block);
+      const Slot& next = slots_[i + ahead];
+      const float* state = state_of(next.block);
+      const std::size_t pixel = refiner_.list().row(next.index).pixels[0];
       for (std::size_t at = 0; at < channels * max_terms; at += 16) prefetch(state + at);
+      for (std::size_t c = 0; c < channels; ++c) {
+        prefetch(state + (channels + c) * max_terms + pixel);
+      }
+      prefetch(state + 2 * channels * max_terms);
     }
     route(slots_[i], slot_values_.data() + i * channels);
   }
