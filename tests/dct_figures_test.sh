@@ -3,26 +3,13 @@
 #   dct_figures_test.sh PROGRAM RENDERER FOLDER
 # RENDERER is freqsynth_render, which makes the pictures.
 set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/expect_failure.sh"
 program=$(realpath "$1")
 renderer=$(realpath "$2")
 folder=$3
 rm -rf "$folder"
 mkdir -p "$folder"
 cd "$folder"
-
-fail() {
-  echo "FAILED: $*" >&2
-  exit 1
-}
-
-# expect_failure CODE TEXT ARGUMENTS...: exits with CODE and says TEXT.
-expect_failure() {
-  local code=$1 text=$2 status=0
-  shift 2
-  "$program" "$@" >said 2>&1 || status=$?
-  [[ $status -eq $code ]] || fail "exit code $status instead of $code: $*"
-  grep -qF -- "$text" said || fail "does not say '$text': $* ($(cat said))"
-}
 
 # size_of FILE: width and height in the header of a PNG.
 size_of() {

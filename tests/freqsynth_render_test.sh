@@ -2,25 +2,12 @@
 # Uses freqsynth_render as a newcomer does, and as a careless one does.
 #   freqsynth_render_test.sh PROGRAM FOLDER
 set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/expect_failure.sh"
 program=$(realpath "$1")
 folder=$2
 rm -rf "$folder"
 mkdir -p "$folder"
 cd "$folder"
-
-fail() {
-  echo "FAILED: $*" >&2
-  exit 1
-}
-
-# expect_failure CODE TEXT ARGUMENTS...: exits with CODE and says TEXT.
-expect_failure() {
-  local code=$1 text=$2 status=0
-  shift 2
-  "$program" "$@" >said 2>&1 || status=$?
-  [[ $status -eq $code ]] || fail "exit code $status instead of $code: $*"
-  grep -qF -- "$text" said || fail "does not say '$text': $* ($(cat said))"
-}
 
 small=(--size 64x48 --scene zoneplate)
 
