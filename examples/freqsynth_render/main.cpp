@@ -180,7 +180,7 @@ void synthesize(const Options& options, const scenes::Scene& scene) {
   freqsynth::ThreadPool pool(options.threads);
   const auto sampler = [&](std::span<const freqsynth::Request> requests, std::span<float> values) {
     for (std::size_t i = 0; i < requests.size(); ++i) {
-      sample_scene(scene, requests[i].x, requests[i].y,
+      sample_scene(scene, requests[i].x, requests[i].y, requests[i].id,
                    values.subspan(i * settings.channels, settings.channels));
     }
   };

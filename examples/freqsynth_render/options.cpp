@@ -8,6 +8,8 @@
 #include <limits>
 #include <string_view>
 
+#include "scenes/scene.h"
+
 namespace {
 
 [[noreturn]] void refuse(std::string_view option, std::string_view value, std::string_view wanted) {
@@ -90,8 +92,7 @@ std::optional<Options> parse_options(int argc, const char** argv) {
   parser.usage(usage_line);
   parser.add_help(false).exit_on_error(false);
   parser.arg("--help", &help).help("Print this help");
-  parser.arg("--scene %s:NAME", &options.scene)
-      .help("fan, chess, zoneplate, or image:FILE (chess)");
+  parser.arg("--scene %s:NAME", &options.scene).help(scenes::scene_list() + " (chess)");
   parser.arg("--size %s:WxH", &size).help("Image size in pixels (512x512)");
   parser.arg("--spp %s:N", &spp).help("Average samples per pixel, fractions included (1)");
   parser.arg("-o %s:FILE", &options.output)

@@ -148,7 +148,7 @@ Vec3 ChessScene::trace(const Ray& ray, double weight, int bounces) const {
   return light;
 }
 
-void ChessScene::radiance(double x, double y, std::span<float, 3> rgb) const {
+void ChessScene::radiance(double x, double y, std::uint64_t /*id*/, std::span<float, 3> rgb) const {
   const Vec3 light = trace(camera_.ray(x, y), 1.0, kMaxBounces);
   store(light, rgb);
 }

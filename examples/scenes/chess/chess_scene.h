@@ -20,7 +20,7 @@ class ChessScene final : public Scene {
   /// `width` and `height` in pixels, both > 0.
   ChessScene(int width, int height);
 
-  void radiance(double x, double y, std::span<float, 3> rgb) const override;
+  void radiance(double x, double y, std::uint64_t id, std::span<float, 3> rgb) const override;
 
  private:
   struct Surface;
