@@ -167,7 +167,7 @@ void synthesize(const Options& options, const scenes::Scene& scene) {
   if (options.until_quality) {
     settings.quantization = freqsynth::quantization_target(quantization_of(options),
                                                            settings.channels, options.tolerance);
-    settings.quantization->noise_free = true;
+    settings.quantization->noise_free = !scene.noisy();
   }
   // Room for blocks with four times the average.
   const double generous = 4 * 64 * options.samples_per_pixel;
@@ -270,7 +270,8 @@ int main(int argc, const char** argv) {
     std::unique_ptr<scenes::Scene> scene;
     scenes::SceneOptions scene_options{.name = options->scene,
                                        .width = static_cast<int>(options->width),
-                                       .height = static_cast<int>(options->height)};
+                                       .height = static_cast<int>(options->height),
+                                       .seed = options->seed};
     if (options->zone_frequency) scene_options.zone_frequency = *options->zone_frequency;
     try {
       scene = scenes::make_scene(scene_options);

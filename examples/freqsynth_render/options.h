@@ -54,7 +54,7 @@ class UsageError : public std::runtime_error {
 
 /// One line that shows the options that are always needed.
 inline constexpr const char* usage_line =
-    "freqsynth_render --scene fan|chess|zoneplate|image:FILE --size WxH --spp N -o FILE [options]";
+    "freqsynth_render --scene NAME --size WxH --spp N -o FILE [options]";
 
 /// Reads the command line. Empty when --help was asked for and printed.
 /// \throws UsageError that names the option and its value.
