@@ -18,3 +18,12 @@ for scene in fan chess; do
   oiiotool "$out/${scene}_frames/contact_sheet.png" --resize 1044x0 --compression jpeg:90 \
     -o "$root/docs/${scene}_frames.jpg"
 done
+
+# The same samples averaged as display values and as light.
+for average in display light; do
+  "$root/examples/run.sh" --scene fan --size 128x128 --spp 16 --direct --quality 95 \
+    --average $average -o "$out/average_$average.jpg"
+done
+oiiotool "$out/average_display.jpg" --resize:filter=box 512x512 \
+  "$out/average_light.jpg" --resize:filter=box 512x512 \
+  --mosaic:pad=8 2x1 --compression jpeg:90 -o "$root/docs/averaging.jpg"
