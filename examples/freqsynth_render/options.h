@@ -3,11 +3,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <stdexcept>
 #include <string>
 
 #include "freqsynth/butterworth.h"
 #include "freqsynth/reconstructor.h"
+#include "option_values.h"
 
 /// What the user asked for.
 struct Options {
@@ -30,12 +30,6 @@ struct Options {
   double scale = 1;
   bool gray = false;
   std::optional<double> zone_frequency;
-};
-
-/// The command line is wrong.
-class UsageError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
 };
 
 /// One line that shows the options that are always needed.
