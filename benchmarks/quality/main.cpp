@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -134,6 +135,7 @@ void perform(const Options& options, Task& task) {
                                          &Metrics::bad_values};
   const auto seeds = static_cast<double>(options.seeds);
   std::vector<double> errors;
+  double least_seconds = std::numeric_limits<double>::infinity();
   for (std::size_t seed = 1; seed <= options.seeds; ++seed) {
     const quality::Run run =
         quality::run_method(*task.method, subject.radiance,
@@ -144,14 +146,16 @@ void perform(const Options& options, Task& task) {
     for (const auto field : fields) result.metrics.*field += metrics.*field / seeds;
     errors.push_back(metrics.rmse);
     result.samples += static_cast<double>(run.calls) / seeds;
-    result.core_seconds += run.core_seconds / seeds;
-    result.sampler_seconds += run.sampler_seconds / seeds;
+    least_seconds = std::min(least_seconds, run.seconds);
+    result.sampler_seconds =
+        seed == 1 ? run.sampler_seconds : std::min(result.sampler_seconds, run.sampler_seconds);
     if (seed == 1 && !options.pictures.empty()) {
       write_picture(folder_of(options, subject) + "/" + quality::file_name(result.method) + "_" +
                         quality::rate_name(task.rate) + ".png",
                     {options.width, options.height, 3, run.pixels});
     }
   }
+  result.core_seconds = std::max(0.0, least_seconds - result.sampler_seconds);
   double squares = 0;
   for (const double error : errors) squares += std::pow(error - result.metrics.rmse, 2);
   if (options.seeds > 1) result.rmse_deviation = std::sqrt(squares / (seeds - 1));

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -57,18 +58,17 @@ baselines::Rendering synthesize(const baselines::Radiance& radiance, const basel
 }
 
 std::vector<Method> all_methods() {
-  const char* const thesis =
-      "Bolin, Application of Image Compression Algorithms to Realistic Image Synthesis, 1995";
   // One sample in each block is the least that shows the whole picture.
   constexpr double one_per_block = 1.0 / 64;
   std::vector<Method> all;
-  all.push_back({"freqsynth", "this library: the fit and its residuals, finished pixels", thesis,
+  all.push_back({"freqsynth", "this library: the fit and its residuals, finished pixels",
+                 "Bolin 1995",
                  [](const baselines::Radiance& radiance, const baselines::Job& job) {
                    return synthesize(radiance, job, Estimate::finished);
                  },
                  one_per_block});
   all.push_back({"freqsynth-paper", "the paper's estimate: the fit alone, Butterworth, pixel means",
-                 thesis,
+                 "Bolin 1995",
                  [](const baselines::Radiance& radiance, const baselines::Job& job) {
                    return synthesize(radiance, job, Estimate::paper);
                  },
@@ -110,10 +110,13 @@ class Meter {
   [[nodiscard]] double sampler_seconds() const {
     if (kept_.empty()) return 0;
     std::array<float, 3> rgb{};
-    const double begin = thread_seconds();
-    for (const Call& call : kept_) radiance_(call.x, call.y, call.id, rgb);
-    return (thread_seconds() - begin) * static_cast<double>(calls_) /
-           static_cast<double>(kept_.size());
+    double least = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < 2; ++i) {
+      const double begin = thread_seconds();
+      for (const Call& call : kept_) radiance_(call.x, call.y, call.id, rgb);
+      least = std::min(least, thread_seconds() - begin);
+    }
+    return least * static_cast<double>(calls_) / static_cast<double>(kept_.size());
   }
 
  private:
@@ -154,7 +157,7 @@ Run run_method(const Method& method, const baselines::Radiance& radiance,
   Meter meter(radiance, job);
   const double begin = thread_seconds();
   baselines::Rendering rendering = method.render(std::ref(meter), job);
-  const double total = thread_seconds() - begin;
+  const double seconds = thread_seconds() - begin;
 
   const auto refuse = [&](const std::string& what) {
     std::string said = method.name;
@@ -174,8 +177,8 @@ Run run_method(const Method& method, const baselines::Radiance& radiance,
   }
   Run run;
   run.calls = meter.calls();
+  run.seconds = seconds;
   run.sampler_seconds = meter.sampler_seconds();
-  run.core_seconds = std::max(0.0, total - run.sampler_seconds);
   run.pixels = std::move(rendering.pixels);
   run.samples = meter.take_samples();
   return run;

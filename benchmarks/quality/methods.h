@@ -34,13 +34,13 @@ struct Run {
   std::vector<float> pixels;           ///< linear RGB, interleaved, row by row
   std::vector<std::uint32_t> samples;  ///< calls of the radiance function in each pixel
   std::uint64_t calls = 0;             ///< of the radiance function
+  /// Processor time of the run, tables and calls of the radiance function included.
+  double seconds = 0;
   /// Processor time of the calls of the radiance function. It is estimated, since a clock around
   /// each call would cost more than many calls do: the positions, or when there are many an even
-  /// part of at least 65,536, are called again after the run, and their time is scaled to all
-  /// calls. They find the caches warmer, so that it is a little too low.
+  /// part of at least 65,536, are called again after the run, twice, and the shorter time is
+  /// scaled to all calls. They find the caches warmer, so that it is a little too low.
   double sampler_seconds = 0;
-  /// Processor time of everything else that the method does, tables included: the rest, >= 0.
-  double core_seconds = 0;
 };
 
 /// Runs a method on the calling thread. A position on the border of two pixels counts for the right

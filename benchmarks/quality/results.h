@@ -8,7 +8,8 @@
 
 namespace quality {
 
-/// A line of the results: means over the seeds.
+/// A line of the results: means over the seeds, but for times, which are the least: other programs
+/// only ever make them longer.
 struct Result {
   std::string scene;
   std::string method;
@@ -19,8 +20,8 @@ struct Result {
   double rmse_deviation = 0;       ///< standard deviation of the RMSE over the seeds
   std::size_t reference_rate = 0;  ///< samples per pixel of the reference
   double reference_error = 0;      ///< see Reference::standard_error()
-  double core_seconds = 0;         ///< processor time, see Run
-  double sampler_seconds = 0;
+  double core_seconds = 0;         ///< processor time without the radiance function, see Run
+  double sampler_seconds = 0;      ///< processor time of the radiance function, see Run
 };
 
 /// Comma-separated values, with a line of names. Times come last: all else is the same on every
