@@ -21,11 +21,11 @@
 #include "quality/methods.h"
 #include "quality/metrics.h"
 #include "quality/reference.h"
+#include "quality/results.h"
 #include "quality/scene_radiance.h"
+#include "quality/window.h"
 #include "reference_cache.h"
-#include "results.h"
 #include "scenes/scene.h"
-#include "window.h"
 
 namespace {
 
@@ -55,9 +55,13 @@ void print_list() {
     std::printf("  %.*s\n", static_cast<int>(name.size()), name.data());
   }
   std::puts("  image:FILE\nMethods:");
+  std::size_t longest = 0;
   for (const quality::Method& method : quality::methods()) {
-    std::printf("  %-18s %s%s%s\n", method.name.c_str(), method.description.c_str(),
-                method.paper.empty() ? "" : "; ", method.paper.c_str());
+    longest = std::max(longest, method.name.size());
+  }
+  for (const quality::Method& method : quality::methods()) {
+    std::printf("  %-*s %s%s%s\n", static_cast<int>(longest), method.name.c_str(),
+                method.description.c_str(), method.paper.empty() ? "" : "; ", method.paper.c_str());
   }
 }
 

@@ -23,12 +23,13 @@ mapfile -t methods < <(awk -F, 'NR > 1 && !seen[$2]++ { print $2 }' "$results")
 }
 
 # The two that the text is about stand out; the others differ in colour and mark.
+colours=(1f77b4 2ca02c 9467bd 8c564b e377c2 17becf bcbd22 ff9f1c 5577aa 66aa99 aa7744 7f7f7f)
 style() {
   case ${methods[$1]} in
     freqsynth) echo 'lw 3 lc rgb "#d02020" pt 7 ps 0.9' ;;
     freqsynth-paper) echo 'lw 2 lc rgb "#f09070" pt 6 ps 0.7' ;;
     jittered-box) echo 'lw 3 lc rgb "#000000" pt 5 ps 0.8' ;;
-    *) echo "lw 1.3 lc $1 pt $((1 + $1 % 13)) ps 0.7" ;;
+    *) echo "lw 1.3 lc rgb '#${colours[$1 % ${#colours[@]}]}' pt $((1 + $1 % 13)) ps 0.7" ;;
   esac
 }
 
@@ -42,7 +43,10 @@ rows=$(((panels + columns - 1) / columns))
   echo 'set logscale xy; set grid; set key off'
   echo 'set xtics ("1/16" .0625, "1/4" .25, "1" 1, "4" 4, "16" 16, "64" 64)'
   echo 'set xlabel "samples per pixel"; set ylabel "RMSE"; set format y "%.3g"'
-  echo 'set xrange [.05:80]'
+  echo 'set xrange [.05:80]; set autoscale yfix'
+  # Fewer than two decades need more than their powers of ten.
+  echo 'set ytics ()'
+  echo 'do for [e=-8:4] { set ytics add (10.0**e, 2 * 10.0**e, 5 * 10.0**e) }'
   for scene in "${scenes[@]}"; do
     echo "set title '${scene//[_\']/ }'"
     curves=()

@@ -10,7 +10,7 @@
 #include <string_view>
 
 #include "freqsynth_render/picture.h"
-#include "results.h"
+#include "quality/results.h"
 
 namespace quality {
 namespace {

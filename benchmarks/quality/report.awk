@@ -6,7 +6,7 @@ BEGIN {
   FS = ","
   ours = "freqsynth"
   yardstick = "jittered-box"
-  # Errors, less is better: PSNR and SSIM are turned round. Column of each, and its name.
+  # Columns of the measures, and their names.
   metrics = split("8 10 11 12 13", column, " ")
   split("RMSE|PSNR|relative MSE|SSIM|worst block", name, "|")
 }
@@ -22,7 +22,7 @@ NR == 1 { next }
 
 function known(s, m, r) { return (s, m, r, 8) in value }
 
-# The value of column c as an error.
+# The value of column c as an error, of which less is better: PSNR and SSIM are turned round.
 function error(s, m, r, c,    v) {
   v = value[s, m, r, c]
   if (c == 10) return v == "inf" ? 0 : exp(-v * log(10) / 10)
@@ -75,6 +75,8 @@ function rate_text(r) {
   return r ""
 }
 
+function rate_name(r) { return rate_text(r) (r > 1 ? " samples" : " sample") " per pixel" }
+
 function figure(x) { return sprintf("%.3g", x) }
 
 # Of list[1 .. n], which is sorted.
@@ -126,32 +128,51 @@ function headline(    i, k, s, r, v, n, count, won, m, ratio, logs, compared, do
   for (k = 1; k <= 3; ++k) {
     if (compared[k] == 0 || count[k] == 0) continue
     for (i = 1; i <= count[k]; ++i) list[i] = factor[k, i]
-    printf "* At %s samples per pixel: the least RMSE of all systems in %d of %d scenes;\n",
-      rate_text(wanted[k]), won[k], compared[k]
+    printf "* At %s: the least RMSE of all systems in %d of %d scenes;\n",
+      rate_name(wanted[k]), won[k], compared[k]
     printf "  %.2f times that of the best other system (geometric mean over the scenes);\n",
       exp(logs[k] / compared[k])
-    printf "  the jittered box needs %.3g times as many samples (median).\n", median(list, count[k])
+    printf "  the jittered box needs %.3g times as many samples (median; bounds count as they are).\n",
+      median(list, count[k])
   }
 }
 
-function losses(    i, j, k, s, m, lost) {
+# How many times as great as the best other error ours is. Mean squares give the root of it, so
+# that all measures compare.
+function excess(s, r, k,    m, ratio) {
+  if (!known(s, ours, r)) return 0
+  m = best_other(s, r, column[k])
+  if (m == "" || error(s, ours, r, column[k]) == 0) return 0
+  if (error(s, m, r, column[k]) <= 0) return 1e9
+  ratio = error(s, ours, r, column[k]) / error(s, m, r, column[k])
+  return column[k] == 10 || column[k] == 11 ? sqrt(ratio) : ratio
+}
+
+function losses(    i, j, k, n, s, r, m, ratio, cells, names, lost, shown) {
+  n = split(".0625 .25 1 4", shown, " ")
   lost = 0
   for (i = 1; i <= scenes; ++i) {
     s = scene[i]
     for (k = 1; k <= metrics; ++k) {
-      for (j = 1; j <= rates; ++j) {
-        if (!known(s, ours, rate[j])) continue
-        m = best_other(s, rate[j], column[k])
-        if (m == "") continue
-        if (error(s, ours, rate[j], column[k]) <= 1.01 * error(s, m, rate[j], column[k])) continue
-        if (!lost++) {
-          print "| scene | samples | measure | freqsynth | better | |"
-          print "|---|---|---|---|---|---|"
+      cells = names = ""
+      for (j = 1; j <= n; ++j) {
+        r = shown[j] + 0
+        ratio = excess(s, r, k)
+        if (ratio <= 1.01) {
+          cells = cells " |"
+          continue
         }
-        printf "| %s | %s | %s | %s | %s | %s |\n", s, rate_text(rate[j]), name[k],
-          sprintf("%.4g", value[s, ours, rate[j], column[k]]),
-          sprintf("%.4g", value[s, m, rate[j], column[k]]), m
+        m = best_other(s, r, column[k])
+        cells = cells " " (ratio >= 1000 ? ">1000" : ratio < 10 ? sprintf("%.2f", ratio) : \
+          sprintf("%.0f", ratio)) " |"
+        if (index(", " names ",", ", " m ",") == 0) names = names (names == "" ? "" : ", ") m
       }
+      if (names == "") continue
+      if (!lost++) {
+        print "| scene | measure | 1/16 | 1/4 | 1 | 4 | better |"
+        print "|---|---|---|---|---|---|---|"
+      }
+      printf "| %s | %s |%s %s |\n", s, name[k], cells, names
     }
   }
   if (!lost) print "Nowhere in these measurements."
@@ -161,8 +182,7 @@ function losses(    i, j, k, s, m, lost) {
     for (j = 1; j <= rates; ++j) {
       if (!known(scene[i], ours, rate[j]) || value[scene[i], ours, rate[j], 14] == 0) continue
       if (!lost++) print "Blocks that freqsynth missed, of a picture:\n"
-      printf "* %s at %s samples per pixel: %.3g\n", scene[i], rate_text(rate[j]),
-        value[scene[i], ours, rate[j], 14]
+      printf "* %s at %s: %.3g\n", scene[i], rate_name(rate[j]), value[scene[i], ours, rate[j], 14]
     }
   }
   if (!lost) print "freqsynth missed no block."
@@ -178,17 +198,18 @@ function scene_tables(    i, j, s, m, r) {
       printf "*From the left: freqsynth, jittered-box, %s, reference.*\n\n", best_other(s, 1, 8)
     }
     if (!known(s, ours, r)) continue
-    print "| method | RMSE | +- | PSNR | rel. MSE | SSIM | worst | missed | seam | core s | scene s |"
-    print "|---|---|---|---|---|---|---|---|---|---|---|"
+    print "| method | RMSE | +- | PSNR | rel. MSE | SSIM | worst | missed | seam | us |"
+    print "|---|---|---|---|---|---|---|---|---|---|"
     for (j = 1; j <= methods; ++j) {
       m = method[j]
       if (!known(s, m, r)) continue
-      printf "| %s | %s | %.1g | %.4g | %s | %.4f | %s | %.3g | %.3g | %.3f | %.3f |\n", m,
+      printf "| %s | %s | %.1g | %.4g | %s | %.4f | %s | %.3g | %.3g | %.2f |\n", m,
         figure(value[s, m, r, 8]), value[s, m, r, 9], value[s, m, r, 10],
         figure(value[s, m, r, 11]), value[s, m, r, 12], figure(value[s, m, r, 13]),
-        value[s, m, r, 14], value[s, m, r, 15], value[s, m, r, 19], value[s, m, r, 20]
+        value[s, m, r, 14], value[s, m, r, 15], 1e6 * value[s, m, r, 19] / value[s, m, r, 7]
     }
-    printf "\nThe reference is off by %s.\n", figure(value[s, ours, r, 18])
+    printf "\nThe reference is off by %s; a call of the scene takes %.2f us.\n",
+      figure(value[s, ours, r, 18]), 1e6 * value[s, ours, r, 20] / value[s, ours, r, 7]
   }
 }
 

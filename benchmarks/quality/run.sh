@@ -32,18 +32,27 @@ program=$root/build/quality/benchmarks/quality/freqsynth_quality
 mkdir -p "$out/parts"
 "$program" --list >"$out/list.txt"
 sed -n 's/^model name[^:]*: *//p' /proc/cpuinfo 2>/dev/null | head -1 >"$out/machine.txt" || true
+mapfile -t all < <(awk '/^Methods:/ { exit } /^  [^:]*$/ { print $1 }' "$out/list.txt")
 scenes=("$@")
 if [[ ${#scenes[@]} -eq 0 ]]; then
-  mapfile -t scenes < <(awk '/^Methods:/ { exit } /^  [^:]*$/ { print $1 }' "$out/list.txt")
+  scenes=("${all[@]}")
 fi
+part_of() { printf '%s' "$out/parts/${1//[^A-Za-z0-9.-]/_}"; }
 for scene in "${scenes[@]}"; do
   echo "$scene" >&2
-  part=$out/parts/${scene//[^A-Za-z0-9.-]/_}
+  part=$(part_of "$scene")
   run=("$program" --scenes "$scene" "${settings[@]}" --cache "$out/references")
   "${run[@]}" --spp "$rates" --pictures "$out/pictures" --csv "$part.csv"
   "${run[@]}" --spp "$more_rates" --methods jittered-box --csv "$part.more.csv"
 done
-# One line of names for all parts.
-awk 'NR == 1 || FNR > 1' "$out"/parts/*.csv >"$out/results.unfinished"
+# All parts that there are, in the order of the list, under one line of names.
+files=()
+for scene in "${all[@]}"; do files+=("$(part_of "$scene").csv" "$(part_of "$scene").more.csv"); done
+for file in "$out"/parts/*.csv; do
+  [[ " ${files[*]} " == *" $file "* ]] || files+=("$file")
+done
+for file in "${files[@]}"; do
+  [[ ! -e $file ]] || cat "$file"
+done | awk 'NR == 1 || !/^scene,method,/' >"$out/results.unfinished"
 mv "$out/results.unfinished" "$out/results.csv"
 echo "The results are in $out/results.csv, the pictures in $out/pictures."
