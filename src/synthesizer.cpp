@@ -398,9 +398,9 @@ float Synthesizer::priority_of(std::uint32_t block) const {
   if (settings_.quantization) {
     // The error falls with the number of samples; so it is worth error / samples to take one more.
     const float error = quantized_error_of(block);
-    const auto tolerance = static_cast<float>(settings_.quantization->tolerance);
-    const bool done = error <= tolerance && count >= QuantizationTarget::least_samples;
-    return done ? 0 : factors_[block] * std::max(error, tolerance) / static_cast<float>(count);
+    const auto allowed = static_cast<float>(settings_.quantization->allowed_error());
+    const bool done = error <= allowed && count >= QuantizationTarget::least_samples;
+    return done ? 0 : factors_[block] * std::max(error, allowed) / static_cast<float>(count);
   }
   return factors_[block] * metric_.priority(variations_[block], count, variance_);
 }
@@ -441,6 +441,7 @@ float Synthesizer::quantized_error_of(std::uint32_t block) const {
       residual = (own * freedom + others / neighbours * neighbours_freedom) /
                  (freedom + neighbours_freedom);
     }
+    residual *= settings_.quantization->evenness(count);
     residual += metric_.priority(0, count, channel_variances_[c]);
     refiner_.coefficients(state_of(block), count, c, coefficients);
     error += quantized_error(settings_.quantization->steps[c], coefficients,

@@ -26,6 +26,21 @@ expect_failure 2 "--threads 0" "${small[@]}" --threads 0 -o a.png
 expect_failure 2 "cheese" --scene cheese -o a.png
 [[ ! -e a.png ]] || fail "a refused command wrote a picture"
 
+expect_failure 2 "--quality 0" "${small[@]}" --quality 0 -o a.jpg
+expect_failure 2 "--quality 101" "${small[@]}" --direct --quality 101 -o a.jpg
+expect_failure 2 "--until-quality best" "${small[@]}" --until-quality best -o a.jpg
+expect_failure 2 "--subsampling 422" "${small[@]}" --subsampling 422 -o a.jpg
+expect_failure 2 "--average median" "${small[@]}" --average median -o a.jpg
+expect_failure 2 "--tolerance 0" "${small[@]}" --until-quality 50 --tolerance 0 -o a.jpg
+expect_failure 2 "--tolerance" "${small[@]}" --tolerance 1 -o a.jpg
+expect_failure 2 "--progressive" "${small[@]}" --progressive -o a.jpg
+expect_failure 2 "--average light" "${small[@]}" --until-quality 50 --average light -o a.jpg
+for option in "--scale 2" "--frames a" "--reference 4" "--pixel-filter none"; do
+  # shellcheck disable=SC2086
+  expect_failure 2 "--direct" "${small[@]}" --direct $option -o a.jpg
+done
+[[ ! -e a.jpg ]] || fail "a refused command wrote a picture"
+
 # Files.
 expect_failure 1 "nowhere/a.png" "${small[@]}" -o nowhere/a.png
 expect_failure 1 "a.nosuchformat" "${small[@]}" -o a.nosuchformat
@@ -63,11 +78,60 @@ cmp one.pfm four.pfm || fail "the picture depends on the number of threads"
 
 # The options that change the picture do.
 for option in "--wave 1" "--terms-every 3" "--cutoff 0.4" "--order 1" "--no-butterworth" \
-    "--pixel-filter none" "--no-residuals" "--channels gray" "--scale 2" "--zone-frequency 0.1" "--reference 4"; do
+    "--pixel-filter none" "--no-residuals" "--channels gray" "--average display" "--scale 2" "--zone-frequency 0.1" "--reference 4"; do
   # shellcheck disable=SC2086
   "$program" "${small[@]}" $option -o option.pfm
   ! cmp -s one.pfm option.pfm || fail "$option changes nothing"
 done
+
+# Coefficients straight to JPEG: an independent decoder finds the pixels of the other route.
+decode() { djpeg -pnm -dct float "$1" 2>/dev/null; }
+# largest_difference A B: of two PNM files of one size.
+largest_difference() {
+  [[ $(head -n 3 "$1" | tr '\n' ' ') == "$(head -n 3 "$2" | tr '\n' ' ')" ]] || fail "$1 is not like $2"
+  { cmp -l "$1" "$2" || true; } |
+    awk 'function octal(t) { return 64 * int(t / 100) + 8 * int(t % 100 / 10) + t % 10 }
+         { d = octal($2) - octal($3); if (d < 0) d = -d; if (d > most) most = d }
+         END { print most + 0 }'
+}
+if "$program" "${small[@]}" --direct -o direct.jpg 2>said; then
+  for options in "" "--channels gray" "--average light" "--progressive" "--size 41x23"; do
+    # shellcheck disable=SC2086
+    "$program" "${small[@]}" --direct --quality 100 $options -o direct.jpg
+    # shellcheck disable=SC2086
+    "$program" "${small[@]}" --average display ${options/--progressive/} -o pixels.ppm
+    decode direct.jpg >direct.ppm
+    # Steps of 1: each coefficient is off by up to 1/2, a pixel by 0.3 in the root mean square.
+    difference=$(largest_difference pixels.ppm direct.ppm)
+    [[ $difference -le 4 ]] || fail "--direct $options decodes to pixels that differ by $difference"
+  done
+  # Coarser, and smaller.
+  "$program" "${small[@]}" --direct -o q75.jpg
+  "$program" "${small[@]}" --direct --quality 20 -o q20.jpg
+  "$program" "${small[@]}" --direct --subsampling 420 -o half.jpg
+  for smaller in q20.jpg half.jpg; do
+    [[ $(stat -c %s $smaller) -lt $(stat -c %s q75.jpg) ]] || fail "$smaller is no smaller than q75.jpg"
+    decode $smaller >decoded.ppm
+  done
+  # No number of samples: more for a finer quantiser, and no more than allowed.
+  for quality in 20 80; do
+    "$program" "${small[@]}" --until-quality $quality -o until.jpg --stats until_$quality.json
+    decode until.jpg >decoded.ppm
+    grep -q '"ended_by": "target"' until_$quality.json || fail "quality $quality was not reached"
+  done
+  samples() { sed -n 's/^ *"samples": \([0-9]*\),/\1/p' "$1"; }
+  [[ $(samples until_20.json) -lt $(samples until_80.json) ]] || fail "quality 20 costs as much as 80"
+  "$program" "${small[@]}" --until-quality 80 --spp 1/8 -o until.jpg --stats until.json
+  [[ $(samples until.json) -eq 384 ]] || fail "--spp does not limit --until-quality"
+  grep -q '"ended_by": "samples"' until.json || fail "the limit is not said"
+  # What cannot be written leaves what was there.
+  expect_failure 1 "nowhere/a.jpg" "${small[@]}" --direct -o nowhere/a.jpg
+  if [[ -e /dev/full ]]; then
+    expect_failure 1 "/dev/full" "${small[@]}" --direct -o /dev/full
+  fi
+else
+  grep -q "without libjpeg" said || fail "--direct fails otherwise than for want of libjpeg"
+fi
 
 # Eight pictures of one run and their contact sheet; a picture as the function.
 "$program" "${small[@]}" --frames frames

@@ -4,9 +4,12 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <memory>
+#include <span>
 #include <stdexcept>
+#include <utility>
 
 #include "freqsynth/quantization.h"
 #include "freqsynth/synthesizer.h"
@@ -127,6 +130,53 @@ TEST(QuantizationTarget, EndsByItselfAndSamplesWhatTheQuantizerKeeps) {
     return engine.stats().samples;
   };
   EXPECT_LT(samples_at(10), samples_at(95));
+}
+
+TEST(QuantizationTarget, TheToleranceIsAShareOfTheQuantizersOwnError) {
+  QuantizationTarget target;
+  target.steps.assign(3, filled(7));
+  target.tolerance = 0.5;
+  // 192 errors that are uniform in -1/2 .. 1/2 of a step.
+  EXPECT_DOUBLE_EQ(target.allowed_error(), 0.5 * 192 / 12);
+  // Independent samples are what least squares expects, whatever their number.
+  EXPECT_EQ(target.evenness(4096), 1);
+  target.noise_free = true;
+  EXPECT_EQ(target.evenness(64), 1);
+  EXPECT_FLOAT_EQ(target.evenness(256), 0.5f);
+}
+
+// White noise around a constant: all AC values are 0 in truth. At the end at most those beyond two
+// standard deviations, 4.6 percent of a normal distribution, are not.
+TEST(QuantizationTarget, NoiseIsSampledUntilTheQuantizerHardlyNotices) {
+  const auto noise = [](std::span<const Request> requests, std::span<float> values) {
+    for (std::size_t i = 0; i < requests.size(); ++i) {
+      std::uint64_t random = (requests[i].id + 1) * 0x9e3779b97f4a7c15u;
+      random = (random ^ (random >> 29)) * 0xbf58476d1ce4e5b9u;
+      random ^= random >> 32;
+      values[i] = 100 + 3 * (static_cast<float>(random >> 40) / (1 << 24) - 0.5f);
+    }
+  };
+  const auto synthesize = [&](bool noise_free) {
+    QuantizationSettings quantization;
+    quantization.luminance = scale_table(luminance_table(), 100);
+    SynthesisSettings settings{.width = 64, .height = 64, .channels = 1};
+    settings.quantization = quantization_target(quantization, 1);
+    settings.quantization->noise_free = noise_free;
+    Synthesizer engine(settings);
+    EXPECT_EQ(engine.run(noise, {}).reason, StopReason::threshold);
+    const QuantizedImage image = quantize(engine.finished_image(), quantization);
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < image.components[0].values.size(); ++i) {
+      if (i % max_terms != 0 && image.components[0].values[i] != 0) ++wrong;
+    }
+    return std::pair(engine.stats().samples, static_cast<double>(wrong) / (64 * 63));
+  };
+  const auto [samples, wrong] = synthesize(false);
+  EXPECT_LT(wrong, 0.046);
+  // Not from sampling without end: half of the samples would leave more.
+  EXPECT_GT(wrong, 0.001);
+  // Noise that is said to be none gets too few.
+  EXPECT_LT(synthesize(true).first, samples);
 }
 
 // A pattern that repeats with the first lattices of a block looks flat there. Its neighbours, of

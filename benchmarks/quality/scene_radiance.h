@@ -14,12 +14,16 @@ namespace quality {
 
 /// The scene as the methods see it. The scene must outlive the result.
 inline baselines::Radiance radiance_of(const scenes::Scene& scene) {
-  return [&scene](double x, double y, std::uint64_t, std::span<float, 3> rgb) {
-    scene.radiance(x, y, rgb);
+  return [&scene](double x, double y, std::uint64_t id, std::span<float, 3> rgb) {
+    scene.radiance(x, y, id, rgb);
   };
 }
 
-/// The exact pixels of the scene; empty when it knows none. The scene must outlive the result.
-inline PixelAverage pixel_average_of(const scenes::Scene&) { return nullptr; }
+/// The pixels whose average the scene knows. The scene must outlive the result.
+inline PixelAverage pixel_average_of(const scenes::Scene& scene) {
+  return [&scene](std::size_t x, std::size_t y, std::span<float, 3> rgb) {
+    return scene.pixel_average(static_cast<long>(x), static_cast<long>(y), rgb);
+  };
+}
 
 }  // namespace quality

@@ -1,17 +1,6 @@
 #include "option_values.h"
 
-#include <charconv>
 #include <cmath>
-
-namespace {
-
-template <class Number>
-bool read_all(std::string_view text, Number& number) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  return error == std::errc() && end == text.data() + text.size();
-}
-
-}  // namespace
 
 void refuse(std::string_view option, std::string_view value, std::string_view wanted) {
   throw UsageError(std::string(option) + " " + std::string(value) + ": not " + std::string(wanted));

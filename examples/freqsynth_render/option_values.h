@@ -19,6 +19,13 @@ class UsageError : public std::runtime_error {
 /// \throws UsageError that names the option, its value, and what was wanted instead.
 [[noreturn]] void refuse(std::string_view option, std::string_view value, std::string_view wanted);
 
+/// \return whether the text is a number, and nothing else
+template <class Number>
+bool read_all(std::string_view text, Number& number) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && end == text.data() + text.size();
+}
+
 // All of these leave `number` as it is when the text is empty, and throw UsageError when it is
 // wrong.
 
@@ -26,8 +33,7 @@ class UsageError : public std::runtime_error {
 template <std::unsigned_integral Number>
 void read_count(std::string_view option, const std::string& text, Number least, Number& number) {
   if (text.empty()) return;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || end != text.data() + text.size() || number < least) {
+  if (!read_all(text, number) || number < least) {
     refuse(option, text, "a whole number from " + std::to_string(least));
   }
 }

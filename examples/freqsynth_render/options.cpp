@@ -2,10 +2,42 @@
 
 #include <OpenImageIO/argparse.h>
 
+#include <array>
+#include <limits>
+#include <string_view>
+
+#include "scenes/scene.h"
+
+namespace {
+
+/// A quality of JPEG.
+void read_quality(std::string_view option, const std::string& text, std::optional<int>& quality) {
+  if (text.empty()) return;
+  int number = 0;
+  if (!read_all(text, number) || number < 1 || number > 100) {
+    refuse(option, text, "a whole number in 1..100");
+  }
+  quality = number;
+}
+
+/// One of two names, for the values 0 and 1.
+template <class Choice>
+void read_name(std::string_view option, const std::string& text,
+               const std::array<std::string_view, 2>& names, Choice& choice) {
+  if (text.empty()) return;
+  if (text != names[0] && text != names[1]) {
+    refuse(option, text, std::string(names[0]).append(" or ").append(names[1]));
+  }
+  choice = static_cast<Choice>(text == names[1]);
+}
+
+}  // namespace
+
 std::optional<Options> parse_options(int argc, const char** argv) {
   Options options;
   std::string size, spp, reference, wave, seed, threads, terms_every, cutoff, order, pixel_filter;
-  std::string scale, channels, zone_frequency;
+  std::string scale, channels, zone_frequency, average, quality, until_quality, subsampling,
+      tolerance;
   bool no_butterworth = false;
   bool help = false;
 
@@ -14,8 +46,7 @@ std::optional<Options> parse_options(int argc, const char** argv) {
   parser.usage(usage_line);
   parser.add_help(false).exit_on_error(false);
   parser.arg("--help", &help).help("Print this help");
-  parser.arg("--scene %s:NAME", &options.scene)
-      .help("fan, chess, zoneplate, or image:FILE (chess)");
+  parser.arg("--scene %s:NAME", &options.scene).help(scenes::scene_list() + " (chess)");
   parser.arg("--size %s:WxH", &size).help("Image size in pixels (512x512)");
   parser.arg("--spp %s:N", &spp).help("Average samples per pixel, fractions included (1)");
   parser.arg("-o %s:FILE", &options.output)
@@ -42,6 +73,20 @@ std::optional<Options> parse_options(int argc, const char** argv) {
   parser.arg("--channels %s:NAME", &channels).help("rgb or gray (rgb)");
   parser.arg("--zone-frequency %s:F", &zone_frequency)
       .help("zoneplate: cycles per pixel at the corner");
+  parser.arg("--average %s:NAME", &average)
+      .help("light: radiance; display: encoded values (light, with --direct display)");
+  parser.separator("JPEG files:");
+  parser.arg("--quality %s:Q", &quality).help("1..100, as libjpeg counts (95; with --direct 75)");
+  parser.arg("--subsampling %s:NAME", &subsampling).help("444, or 420: chroma halved (444)");
+  parser.arg("--direct", &options.direct)
+      .help("Quantise the fitted coefficients: no pixel is ever made, unless --average light");
+  parser.arg("--progressive", &options.progressive).help("With --direct: coarse to fine");
+  parser.arg("--until-quality %s:Q", &until_quality)
+      .help(
+          "--direct --quality Q that samples until the quantiser would hardly notice; --spp is a "
+          "limit then");
+  parser.arg("--tolerance %s:T", &tolerance)
+      .help("With --until-quality: error of sampling relative to the quantiser's own (0.25)");
   if (parser.parse_args(argc, argv) < 0) throw UsageError(parser.geterror());
   if (help) {
     parser.print_help();
@@ -59,19 +104,36 @@ std::optional<Options> parse_options(int argc, const char** argv) {
   read_positive("--order", order, options.butterworth.order);
   read_positive("--scale", scale, options.scale);
   options.butterworth.enabled = !no_butterworth;
-  if (!pixel_filter.empty()) {
-    if (pixel_filter != "none" && pixel_filter != "box") {
-      refuse("--pixel-filter", pixel_filter, "none or box");
-    }
-    options.pixel_filter =
-        pixel_filter == "box" ? freqsynth::PixelFilter::box : freqsynth::PixelFilter::none;
-  }
-  if (!channels.empty()) {
-    if (channels != "rgb" && channels != "gray") refuse("--channels", channels, "rgb or gray");
-    options.gray = channels == "gray";
-  }
   if (!zone_frequency.empty()) {
     read_positive("--zone-frequency", zone_frequency, options.zone_frequency.emplace());
+  }
+  read_name("--pixel-filter", pixel_filter, {"none", "box"}, options.pixel_filter);
+  read_name("--channels", channels, {"rgb", "gray"}, options.gray);
+  read_quality("--until-quality", until_quality, options.until_quality);
+  options.direct = options.direct || options.until_quality;
+  std::optional<int> file_quality = options.until_quality;
+  read_quality("--quality", quality, file_quality);
+  options.quality = file_quality.value_or(options.direct ? 75 : 95);
+  read_positive("--tolerance", tolerance, options.tolerance);
+  if (options.until_quality && spp.empty()) {
+    options.samples_per_pixel = std::numeric_limits<double>::infinity();
+  }
+  if (options.direct) options.averaging = Averaging::display;
+  read_name("--average", average, {"light", "display"}, options.averaging);
+  read_name("--subsampling", subsampling, {"444", "420"}, options.subsampling);
+  if (options.until_quality && options.averaging == Averaging::light) {
+    throw UsageError("--until-quality: has no --average light");
+  }
+  if (options.direct && (options.output.empty() || options.scale != 1 || options.reference != 0 ||
+                         !options.frames.empty())) {
+    throw UsageError("--direct: needs -o and has no --frames, --scale and --reference");
+  }
+  if (options.direct && options.pixel_filter == freqsynth::PixelFilter::none) {
+    throw UsageError("--direct: averages over pixels, has no --pixel-filter none");
+  }
+  if (options.progressive && !options.direct) throw UsageError("--progressive: needs --direct");
+  if (!tolerance.empty() && !options.until_quality) {
+    throw UsageError("--tolerance: needs --until-quality");
   }
   if (options.terms_every < 1) refuse("--terms-every", terms_every, "at least 1");
   if (options.threads > 1024) refuse("--threads", threads, "in 1..1024");

@@ -6,15 +6,22 @@
 #include <string>
 
 #include "freqsynth/butterworth.h"
+#include "freqsynth/quantization.h"
 #include "freqsynth/reconstructor.h"
 #include "option_values.h"
+
+/// In what the values of a pixel are averaged.
+enum class Averaging : std::uint8_t {
+  light,   ///< linear radiance, as a camera does
+  display  ///< display-encoded values, as a JPEG holds them: clamped, sRGB
+};
 
 /// What the user asked for.
 struct Options {
   std::string scene = "chess";
   std::size_t width = 512;
   std::size_t height = 512;
-  double samples_per_pixel = 1;
+  double samples_per_pixel = 1;  // infinite: until the target is met
   std::string output;
   std::string density;        // empty: not wanted
   std::string frames;         // a folder; empty: not wanted
@@ -30,11 +37,18 @@ struct Options {
   double scale = 1;
   bool gray = false;
   std::optional<double> zone_frequency;
+  Averaging averaging = Averaging::light;
+  int quality = 95;  // of a JPEG file
+  freqsynth::Subsampling subsampling = freqsynth::Subsampling::none;
+  bool direct = false;  // coefficients to JPEG, without pixels
+  bool progressive = false;
+  std::optional<int> until_quality;
+  double tolerance = 0.25;
 };
 
 /// One line that shows the options that are always needed.
 inline constexpr const char* usage_line =
-    "freqsynth_render --scene fan|chess|zoneplate|image:FILE --size WxH --spp N -o FILE [options]";
+    "freqsynth_render --scene NAME --size WxH --spp N -o FILE [options]";
 
 /// Reads the command line. Empty when --help was asked for and printed.
 /// \throws UsageError that names the option and its value.

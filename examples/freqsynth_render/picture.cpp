@@ -8,7 +8,6 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
@@ -46,7 +45,7 @@ std::string ending_of(const std::string& file) {
 }
 
 bool holds_linear(const std::string& file) {
-  const std::array linear{".exr", ".hdr", ".tif", ".tiff"};
+  const std::array linear{".exr", ".pfm", ".hdr", ".tif", ".tiff"};
   return std::find(linear.begin(), linear.end(), ending_of(file)) != linear.end();
 }
 
@@ -66,35 +65,49 @@ void write_pfm(const std::string& name, const Picture& picture) {
   if (!stream) throw std::runtime_error("cannot be written");
 }
 
-/// The transfer function of sRGB (IEC 61966-2-1) to 8 bits.
-std::uint8_t display_encoded(float linear) {
+/// The transfer function of sRGB (IEC 61966-2-1) and its inverse.
+float encoded(float linear) {
   const float x = std::clamp(std::isnan(linear) ? 0.0f : linear, 0.0f, 1.0f);
-  const float encoded = x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1 / 2.4f) - 0.055f;
-  return static_cast<std::uint8_t>(std::lround(255 * encoded));
+  return x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1 / 2.4f) - 0.055f;
+}
+
+float decoded(float encoded) {
+  const float x = std::clamp(std::isnan(encoded) ? 0.0f : encoded, 0.0f, 1.0f);
+  return x <= 0.04045f ? x / 12.92f : std::pow((x + 0.055f) / 1.055f, 2.4f);
+}
+
+/// The values of a file of linear values, or of 0..1 for one of 8 bits.
+std::vector<float> values_for(const Picture& picture, bool linear) {
+  std::vector<float> values = picture.pixels;
+  if (picture.encoded && linear) {
+    std::transform(values.begin(), values.end(), values.begin(), decoded);
+  } else if (!picture.encoded && !linear) {
+    std::transform(values.begin(), values.end(), values.begin(), encoded);
+  }
+  return values;
 }
 
 }  // namespace
 
-void write_picture(const std::string& file, const Picture& picture) {
+void write_picture(const std::string& file, const Picture& picture, const JpegSettings& jpeg) {
   write_whole(file, [&](const std::string& name) {
-    if (ending_of(file) == ".pfm") return write_pfm(name, picture);
+    const bool linear = holds_linear(file);
+    const std::vector<float> values = values_for(picture, linear);
+    if (ending_of(file) == ".pfm") {
+      write_pfm(name, {picture.width, picture.height, picture.channels, values});
+      return;
+    }
     const auto output = OIIO::ImageOutput::create(file);
     if (!output) throw std::runtime_error(OIIO::geterror());
-    const bool linear = holds_linear(file);
     OIIO::ImageSpec spec(static_cast<int>(picture.width), static_cast<int>(picture.height),
                          static_cast<int>(picture.channels),
                          linear ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8);
     spec.attribute("oiio:ColorSpace", linear ? "Linear" : "sRGB");
-    spec.attribute("CompressionQuality", 95);
-    bool written = output->open(name, spec);
-    if (written && linear) {
-      written = output->write_image(OIIO::TypeDesc::FLOAT, picture.pixels.data());
-    } else if (written) {
-      std::vector<std::uint8_t> encoded(picture.pixels.size());
-      std::transform(picture.pixels.begin(), picture.pixels.end(), encoded.begin(),
-                     display_encoded);
-      written = output->write_image(OIIO::TypeDesc::UINT8, encoded.data());
-    }
+    spec.attribute("CompressionQuality", jpeg.quality);
+    spec.attribute("jpeg:subsampling",
+                   jpeg.subsampling == freqsynth::Subsampling::both ? "4:2:0" : "4:4:4");
+    const bool written =
+        output->open(name, spec) && output->write_image(OIIO::TypeDesc::FLOAT, values.data());
     if (!written || !output->close()) {
       const std::string reason = output->geterror();
       throw std::runtime_error(reason.empty() ? "cannot be written" : reason);
@@ -126,7 +139,8 @@ Picture contact_sheet(const std::vector<Picture>& pictures, std::size_t columns)
   Picture sheet{columns * first.width + (columns + 1) * gap,
                 rows * first.height + (rows + 1) * gap,
                 first.channels,
-                {}};
+                {},
+                first.encoded};
   sheet.pixels.assign(sheet.width * sheet.height * sheet.channels, 1.0f);
   for (std::size_t i = 0; i < pictures.size(); ++i) {
     const std::size_t left = gap + i % columns * (first.width + gap);

@@ -4,19 +4,28 @@
 #include <string>
 #include <vector>
 
-/// Pixels, row by row, channels interleaved; linear values.
+#include "freqsynth/quantization.h"
+
+/// Pixels, row by row, channels interleaved.
 struct Picture {
   std::size_t width = 0;
   std::size_t height = 0;
   std::size_t channels = 3;
   std::vector<float> pixels;
+  bool encoded = false;  ///< values are display-encoded (sRGB, 0..1) instead of linear
+};
+
+/// How a JPEG file is written.
+struct JpegSettings {
+  int quality = 95;  ///< 1..100
+  freqsynth::Subsampling subsampling = freqsynth::Subsampling::none;
 };
 
 /// Writes a picture. The ending of the name chooses the format: EXR, PFM, HDR and TIFF hold the
-/// linear values as they are, all others get 8 bits in sRGB. A file of that name is replaced only
+/// linear values, all others get 8 bits in sRGB. A file of that name is replaced only
 /// when the new one is complete.
 /// \throws std::runtime_error naming the file and the reason.
-void write_picture(const std::string& file, const Picture& picture);
+void write_picture(const std::string& file, const Picture& picture, const JpegSettings& jpeg = {});
 
 /// Writes text, in the same way.
 void write_text(const std::string& file, const std::string& text);

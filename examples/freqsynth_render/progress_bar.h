@@ -18,6 +18,12 @@ class ProgressBar {
     std::fprintf(stderr, "\r[%-50s] %3d%%", done.c_str(), percent);
     if (percent >= 100) clear();
   }
+  /// For a run without a known end.
+  void count(double samples_per_pixel) {
+    if (!terminal_) return;
+    percent_ = 0;
+    std::fprintf(stderr, "\r%10.2f samples per pixel", samples_per_pixel);
+  }
   ~ProgressBar() { clear(); }
 
  private:

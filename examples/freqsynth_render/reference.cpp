@@ -4,12 +4,17 @@
 #include <cmath>
 #include <random>
 
+#include "freqsynth/display_encoding.h"
 #include "sampling.h"
+#include "scenes/random.h"
 
 Picture render_reference(const scenes::Scene& scene, std::size_t width, std::size_t height,
                          std::size_t channels, std::size_t samples, std::uint64_t seed,
-                         freqsynth::ThreadPool& pool, const std::function<void(double)>& progress) {
-  Picture picture{width, height, channels, std::vector<float>(width * height * channels)};
+                         Averaging averaging, freqsynth::ThreadPool& pool,
+                         const std::function<void(double)>& progress) {
+  const bool display = averaging == Averaging::display;
+  const freqsynth::DisplayEncoding encoding;
+  Picture picture{width, height, channels, std::vector<float>(width * height * channels), display};
   auto down = static_cast<std::size_t>(std::sqrt(static_cast<double>(samples)));
   while (samples % down != 0) --down;
   const std::size_t across = samples / down;
@@ -27,9 +32,14 @@ Picture render_reference(const scenes::Scene& scene, std::size_t width, std::siz
         const double dx =
             (static_cast<double>(i % across) + uniform()) / static_cast<double>(across);
         const double dy = (static_cast<double>(i / across) + uniform()) / static_cast<double>(down);
-        sample_scene(scene, static_cast<double>(x) + dx, static_cast<double>(y) + dy,
+        // A bijection of the sample's number: unique in the picture, and other seeds give others.
+        const std::uint64_t number = (std::uint64_t{y} * width + x) * samples + i;
+        const std::uint64_t id = scenes::mix_bits(scenes::mix_bits(seed) + number);
+        sample_scene(scene, static_cast<double>(x) + dx, static_cast<double>(y) + dy, id,
                      std::span(value).first(channels));
-        for (std::size_t c = 0; c < channels; ++c) sum[c] += double{value[c]};
+        for (std::size_t c = 0; c < channels; ++c) {
+          sum[c] += double{display ? encoding.encode(value[c]) / 255 : value[c]};
+        }
       }
       for (std::size_t c = 0; c < channels; ++c) {
         picture.pixels[(y * width + x) * channels + c] =

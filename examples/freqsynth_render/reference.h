@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "freqsynth/executor.h"
+#include "options.h"
 #include "picture.h"
 #include "scenes/scene.h"
 
@@ -14,4 +15,5 @@
 /// \param progress  called with the share that is done
 Picture render_reference(const scenes::Scene& scene, std::size_t width, std::size_t height,
                          std::size_t channels, std::size_t samples, std::uint64_t seed,
-                         freqsynth::ThreadPool& pool, const std::function<void(double)>& progress);
+                         Averaging averaging, freqsynth::ThreadPool& pool,
+                         const std::function<void(double)>& progress);

@@ -16,7 +16,7 @@ constexpr double kBottomWidth = 0.06;
 
 Fan::Fan(int width, int height) : unit_per_pixel_x_(1.0 / width), unit_per_pixel_y_(1.0 / height) {}
 
-void Fan::radiance(double x, double y, std::span<float, 3> rgb) const {
+void Fan::radiance(double x, double y, std::uint64_t /*id*/, std::span<float, 3> rgb) const {
   const double u = x * unit_per_pixel_x_;
   const double v = y * unit_per_pixel_y_;
   float value = 1.0F;

@@ -18,7 +18,7 @@ class Fan final : public Scene {
   /// A fan that fills `width` by `height` pixels, both > 0, but for a margin.
   Fan(int width, int height);
 
-  void radiance(double x, double y, std::span<float, 3> rgb) const override;
+  void radiance(double x, double y, std::uint64_t id, std::span<float, 3> rgb) const override;
 
  private:
   double unit_per_pixel_x_;

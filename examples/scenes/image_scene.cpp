@@ -66,7 +66,7 @@ const float* ImageScene::pixel(int column, int row) const {
                        static_cast<std::size_t>(inside_column))];
 }
 
-void ImageScene::radiance(double x, double y, std::span<float, 3> rgb) const {
+void ImageScene::radiance(double x, double y, std::uint64_t /*id*/, std::span<float, 3> rgb) const {
   const double column = x * columns_per_pixel_ - 0.5;
   const double row = y * rows_per_pixel_ - 0.5;
   const double left = std::floor(column);

@@ -21,7 +21,7 @@ class ImageScene final : public Scene {
   /// Reads `file` whole. Throws std::runtime_error naming the file and the reason if it cannot.
   ImageScene(const std::string& file, int width, int height);
 
-  void radiance(double x, double y, std::span<float, 3> rgb) const override;
+  void radiance(double x, double y, std::uint64_t id, std::span<float, 3> rgb) const override;
 
  private:
   [[nodiscard]] const float* pixel(int column, int row) const;

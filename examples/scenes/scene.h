@@ -2,6 +2,7 @@
 /// The interface of the scenes and how to get one.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
@@ -21,9 +22,19 @@ class Scene {
   /// position (x, y) in `rgb`. x grows to the right in [0, width], y grows downwards in [0,
   /// height], and pixel (i, j) is centred at (i + 0.5, j + 0.5).
   ///
-  /// A point sample: no filter, no randomness. The same position always gives the same value. Safe
+  /// A point sample, without a filter. `id` names the sample. A scene that is not noisy() ignores
+  /// it; a noisy one takes all its random numbers from it and SceneOptions::seed, and the mean of
+  /// its values over all ids is the radiance. The same arguments always give the same value. Safe
   /// to call from any number of threads at once.
-  virtual void radiance(double x, double y, std::span<float, 3> rgb) const = 0;
+  virtual void radiance(double x, double y, std::uint64_t id, std::span<float, 3> rgb) const = 0;
+
+  /// Whether radiance() is a Monte Carlo estimate, whose value depends on the sample's id.
+  [[nodiscard]] virtual bool noisy() const { return false; }
+
+  /// Stores the mean radiance over the area of pixel (i, j) in `rgb` and returns true where it is
+  /// known in closed form, exact up to rounding. Otherwise returns false and leaves `rgb` as it is.
+  /// i is in [0, width), j in [0, height).
+  [[nodiscard]] virtual bool pixel_average(long i, long j, std::span<float, 3> rgb) const;
 };
 
 /// What make_scene() is to make.
@@ -37,14 +48,28 @@ struct SceneOptions {
   /// finite and >= 0. 0.5 is the limit that one sample per pixel can represent; the default stays
   /// below it, so that all aliasing in a picture is the sampler's fault.
   double zone_frequency = 0.4;
+  /// Noisy scenes only: other seeds give other noise, but the same mean.
+  std::uint64_t seed = 0;
 };
 
 /// Makes a scene:
 ///
-/// * `fan`        a resolution fan of hard black and white lines that converge downwards
-/// * `chess`      a ray-traced chess board with all its pieces
-/// * `zoneplate`  cosine rings whose frequency grows linearly with the distance from a corner
-/// * `image:FILE` a picture that OpenImageIO can read, stretched over the image
+/// * `fan`            a resolution fan of hard black and white lines that converge downwards
+/// * `chess`          a ray-traced chess board with all its pieces
+/// * `zoneplate`      cosine rings whose frequency grows linearly with the distance from a corner
+/// * `zoneplate-high` the same, up to 0.8 cycles per pixel: more than the pixels can hold
+/// * `star`           a Siemens star of hard black and white spokes
+/// * `edge`           a slanted black and white edge
+/// * `checker`        a checkered floor in perspective, up to the horizon
+/// * `gradient`       smooth colour gradients without any edge
+/// * `dot`            a few bright dots, smaller than a pixel, on mid gray
+/// * `corner`         black, but for one small lit corner
+/// * `sun`            a low sun, a thousand times as bright as the sky, behind a forest's
+/// silhouette
+/// * `softshadow`     solids under a lamp with an area (noisy)
+/// * `dof`            a row of balls, of which a lens has one in focus (noisy)
+/// * `glossy`         balls that are mirrored in a brushed floor (noisy)
+/// * `image:FILE`     a picture that OpenImageIO can read, stretched over the image
 ///
 /// Throws std::invalid_argument, naming the value, for an unknown name, a size that is not
 /// positive, or a bad zone frequency. Throws std::runtime_error, naming the file and the reason,
@@ -53,5 +78,8 @@ struct SceneOptions {
 
 /// The names that make_scene() takes, without `image:FILE`, which needs a file.
 [[nodiscard]] std::span<const std::string_view> scene_names();
+
+/// All that make_scene() takes, as a list to read: "fan, chess, ..., image:FILE".
+[[nodiscard]] std::string scene_list();
 
 }  // namespace scenes

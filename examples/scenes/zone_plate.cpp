@@ -16,7 +16,7 @@ ZonePlate::ZonePlate(int width, int height, double frequency)
   }
 }
 
-void ZonePlate::radiance(double x, double y, std::span<float, 3> rgb) const {
+void ZonePlate::radiance(double x, double y, std::uint64_t /*id*/, std::span<float, 3> rgb) const {
   const double value = 0.5 + 0.5 * std::cos(phase_scale_ * (x * x + y * y));
   std::fill(rgb.begin(), rgb.end(), static_cast<float>(value));
 }

@@ -18,7 +18,7 @@ class ZonePlate final : public Scene {
   /// std::invalid_argument for another frequency.
   ZonePlate(int width, int height, double frequency);
 
-  void radiance(double x, double y, std::span<float, 3> rgb) const override;
+  void radiance(double x, double y, std::uint64_t id, std::span<float, 3> rgb) const override;
 
  private:
   double phase_scale_;  // phase per squared pixel

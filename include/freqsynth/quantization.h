@@ -82,7 +82,7 @@ struct QuantizedImage {
 /// resolution counts as steps twice as large, and none where the resolution is lost.
 /// \throws std::invalid_argument like quantize().
 [[nodiscard]] QuantizationTarget quantization_target(const QuantizationSettings& settings,
-                                                     std::size_t channels, double tolerance = 1);
+                                                     std::size_t channels, double tolerance = 0.25);
 
 /// The way back: all components as one image of finished pixels with the signal described above.
 /// Components of a lower resolution are replicated in the frequency domain.

@@ -26,9 +26,25 @@ struct QuantizationTarget {
   /// dropped.
   std::vector<std::array<float, max_terms>> steps;
   /// A block is done when its expected squared error, in squared steps and summed over all
-  /// channels, is at most this. A quantiser's own error is 1/12 for each coefficient that it keeps.
-  /// Finite and > 0.
-  double tolerance = 1;
+  /// channels, is at most this share of what the quantiser itself does to a block of which it keeps
+  /// all coefficients: 1/12 for each. Finite and > 0; at 1/4 sampling takes at most 1 dB from such
+  /// a block.
+  double tolerance = 0.25;
+  /// The sampler is a function of the position alone, not a Monte Carlo estimate. Then the error at
+  /// an edge falls with n^(-3/2) instead of 1/n once there is more than a sample per pixel, because
+  /// samples are spread evenly; fewer of them are needed.
+  bool noise_free = false;
+
+  /// The most squared error of a block that is done, in squared steps.
+  [[nodiscard]] double allowed_error() const {
+    return tolerance * static_cast<double>(max_terms * steps.size()) / 12;
+  }
+  /// Factor on the squared error that least squares expects of `samples` independent samples.
+  [[nodiscard]] float evenness(std::size_t samples) const {
+    constexpr std::size_t pixels = block_size * block_size;
+    if (!noise_free || samples <= pixels) return 1;
+    return std::sqrt(static_cast<float>(pixels) / static_cast<float>(samples));
+  }
 
   /// \throws std::invalid_argument naming the field and the value when out of range.
   void validate(std::size_t channels) const;

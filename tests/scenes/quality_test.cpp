@@ -51,7 +51,7 @@ class Picture {
  private:
   std::array<float, 3> at(double x, double y) const {
     std::array<float, 3> rgb{};
-    scene_->radiance(x, y, rgb);
+    scene_->radiance(x, y, 0, rgb);
     return rgb;
   }
 

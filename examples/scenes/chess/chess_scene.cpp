@@ -69,19 +69,8 @@ struct ChessScene::Surface {
   bool is_ground = false;
 };
 
-ChessScene::ChessScene(int width, int height) : set_(kPlacement), width_(width), height_(height) {
-  const Vec3 forward = normalize(kTarget - kEye);
-  const Vec3 right = normalize(cross(forward, {0.0, 0.0, 1.0}));
-  const Vec3 up = cross(right, forward);
-  const double per_pixel = 2.0 * kHalfField / std::min(width_, height_);
-  across_ = per_pixel * right;
-  down_ = -per_pixel * up;
-  corner_ = forward - 0.5 * width_ * across_ - 0.5 * height_ * down_;
-}
-
-Ray ChessScene::primary_ray(double x, double y) const {
-  return {kEye, normalize(corner_ + x * across_ + y * down_)};
-}
+ChessScene::ChessScene(int width, int height)
+    : set_(kPlacement), camera_(kEye, kTarget, kHalfField, width, height) {}
 
 bool ChessScene::find_surface(const Ray& ray, Surface& surface) const {
   std::optional<Hit> nearest = Board::intersect(ray, 0.0, kFar);
@@ -159,11 +148,9 @@ Vec3 ChessScene::trace(const Ray& ray, double weight, int bounces) const {
   return light;
 }
 
-void ChessScene::radiance(double x, double y, std::span<float, 3> rgb) const {
-  const Vec3 light = trace(primary_ray(x, y), 1.0, kMaxBounces);
-  rgb[0] = static_cast<float>(light.x);
-  rgb[1] = static_cast<float>(light.y);
-  rgb[2] = static_cast<float>(light.z);
+void ChessScene::radiance(double x, double y, std::uint64_t /*id*/, std::span<float, 3> rgb) const {
+  const Vec3 light = trace(camera_.ray(x, y), 1.0, kMaxBounces);
+  store(light, rgb);
 }
 
 }  // namespace scenes::chess

@@ -2,10 +2,11 @@
 /// The `chess` scene: a small recursive ray tracer (Whitted 1980).
 #pragma once
 
+#include "../camera.h"
 #include "../scene.h"
+#include "../vec3.h"
 #include "chess_set.h"
 #include "material.h"
-#include "vec3.h"
 
 namespace scenes::chess {
 
@@ -19,12 +20,11 @@ class ChessScene final : public Scene {
   /// `width` and `height` in pixels, both > 0.
   ChessScene(int width, int height);
 
-  void radiance(double x, double y, std::span<float, 3> rgb) const override;
+  void radiance(double x, double y, std::uint64_t id, std::span<float, 3> rgb) const override;
 
  private:
   struct Surface;
 
-  [[nodiscard]] Ray primary_ray(double x, double y) const;
   [[nodiscard]] bool find_surface(const Ray& ray, Surface& surface) const;
   [[nodiscard]] bool is_shadowed(const Surface& surface, const Vec3& to_lamp,
                                  double distance) const;
@@ -34,11 +34,7 @@ class ChessScene final : public Scene {
   [[nodiscard]] Vec3 lamp_light(const Ray& ray, const Surface& surface) const;
 
   ChessSet set_;
-  double width_;
-  double height_;
-  Vec3 corner_;  // direction through the image's top left corner
-  Vec3 across_;  // added per pixel to the right
-  Vec3 down_;    // added per pixel downwards
+  Camera camera_;
 };
 
 }  // namespace scenes::chess

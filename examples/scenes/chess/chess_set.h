@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "../vec3.h"
 #include "piece_shape.h"
-#include "vec3.h"
 
 namespace scenes::chess {
 

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "vec3.h"
+#include "../vec3.h"
 
 namespace scenes::chess {
 

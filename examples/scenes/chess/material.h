@@ -2,7 +2,7 @@
 /// What surfaces are made of.
 #pragma once
 
-#include "vec3.h"
+#include "../vec3.h"
 
 namespace scenes::chess {
 

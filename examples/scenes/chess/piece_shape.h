@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
+#include "../solids.h"
+#include "../vec3.h"
 #include "profile.h"
-#include "solids.h"
-#include "vec3.h"
 
 namespace scenes::chess {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "vec3.h"
+#include "../vec3.h"
 
 namespace scenes::chess {
 

@@ -4,8 +4,8 @@
 
 #include <optional>
 
+#include "../vec3.h"
 #include "material.h"
-#include "vec3.h"
 
 namespace scenes::chess {
 

@@ -3,8 +3,9 @@
 #pragma once
 
 #include <cmath>
+#include <span>
 
-namespace scenes::chess {
+namespace scenes {
 
 /// A point, a direction or a colour.
 struct Vec3 {
@@ -30,6 +31,13 @@ inline double length(const Vec3& a) { return std::sqrt(dot(a, a)); }
 inline Vec3 normalize(const Vec3& a) {
   const double size = length(a);
   return size > 0.0 ? (1.0 / size) * a : Vec3{0.0, 0.0, 1.0};
+}
+
+/// Stores a colour as red, green and blue.
+inline void store(const Vec3& color, std::span<float, 3> rgb) {
+  rgb[0] = static_cast<float>(color.x);
+  rgb[1] = static_cast<float>(color.y);
+  rgb[2] = static_cast<float>(color.z);
 }
 
 /// From `a` at s = 0 to `b` at s = 1.
@@ -61,4 +69,4 @@ struct Hit {
   Vec3 normal;
 };
 
-}  // namespace scenes::chess
+}  // namespace scenes

@@ -1,12 +1,12 @@
 /// \file
-/// The simple convex solids that are added to or cut out of a turned piece.
+/// Simple convex solids.
 #pragma once
 
 #include <variant>
 
 #include "vec3.h"
 
-namespace scenes::chess {
+namespace scenes {
 
 /// Where a ray enters (0) and leaves (1) a convex solid. Not crossed at all if t0 >= t1. The
 /// normals point outwards; their length is arbitrary.
@@ -56,4 +56,4 @@ struct Cylinder {
 
 using Solid = std::variant<Ball, Box, Cylinder>;
 
-}  // namespace scenes::chess
+}  // namespace scenes

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-namespace scenes::chess {
+namespace scenes {
 namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
@@ -99,4 +99,4 @@ bool Cylinder::contains(const Vec3& p) const {
   return p.x * p.x + p.y * p.y < radius * radius && p.z > z0 && p.z < z1;
 }
 
-}  // namespace scenes::chess
+}  // namespace scenes

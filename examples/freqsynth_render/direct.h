@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstddef>
+
+#include "freqsynth/frequency_image.h"
+#include "options.h"
+
+/// The tables and the chroma resolution of the JPEG file.
+freqsynth::QuantizationSettings quantization_of(const Options& options);
+
+/// Quantises an image of `options.averaging` and writes it as a JPEG file, without pixels where the
+/// samples were display-encoded. Says on stderr when coefficients had to be clamped.
+/// \throws std::runtime_error naming the file and the reason, or when this program was built without
+///         libjpeg.
+void write_direct(const Options& options, const freqsynth::FrequencyImage& image);
+
+/// \throws std::runtime_error when write_direct() would for want of libjpeg.
+void check_direct();
