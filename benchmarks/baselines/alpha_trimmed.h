@@ -8,9 +8,9 @@ namespace baselines {
 
 struct AlphaTrimmedSettings {
   /// Share, in [0, 0.5), of the largest values that is discarded, and of the smallest.
-  double alpha = 0.2;
+  double alpha = 0.3;
   /// Distance of the hexagon's corners from the pixel, in pixels, > 0.
-  double distance = 1;
+  double distance = 0.5;
 };
 
 /// Lee and Redner, A Note on the Use of Nonlinear Filtering in Computer Graphics, 1990: each pixel

@@ -10,11 +10,11 @@
 namespace baselines {
 
 struct DippeWoldSettings {
-  PixelFilter filter = PixelFilter::box;
+  PixelFilter filter = PixelFilter::tent;
   /// Widths to choose from, relative to the filter's own, growing, at least one.
-  std::vector<double> widths = {1, 1.5, 2, 3};
+  std::vector<double> widths = {0.75, 1.5, 3};
   /// Signal to noise ratio (of powers) below which a wider filter is taken. >= 0; 0 never widens.
-  double threshold = 0.5;
+  double threshold = 0.25;
 };
 
 /// Dippe and Wold, Antialiasing Through Stochastic Sampling, 1985: jittered samples and a filter

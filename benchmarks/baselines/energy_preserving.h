@@ -9,7 +9,7 @@ namespace baselines {
 struct EnergyPreservingSettings {
   /// A pixel is noisy when it differs from the mean of its neighbours by more than this many of
   /// their standard deviations. >= 0.
-  double deviations = 3;
+  double deviations = 2;
   /// Most that a pixel may receive from a noisy one, relative to the mean of the picture: the
   /// authors' threshold of visibility, one of 256 levels when the mean is mapped to the middle. >
   /// 0.

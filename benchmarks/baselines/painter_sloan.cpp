@@ -6,15 +6,18 @@
 namespace baselines {
 namespace {
 
+/// What the descent reads: small, so that both children lie in one line of the cache.
 struct Node {
   std::uint32_t children = 0;  // index of the first of two; 0 in a leaf
   std::uint32_t count = 1;     // samples below
-  Rgb mean{};                  // of the samples below; of a leaf's own sample, not clamped
-  float squares = 0;           // sum of the squared deviations, averaged over the components
-  float variance = 0;          // of a leaf: that expected in it
-  float x = 0;                 // of a leaf's sample
+  float error = 0;             // squared, expected of the part of the picture below
+};
+
+struct Leaf {
+  Rgb radiance{};  // of its sample
+  float x = 0;     // where that lies
   float y = 0;
-  float error = 0;
+  float variance = 0;  // expected in the cell
 };
 
 /// Halves a cell across its longer side.
@@ -32,7 +35,8 @@ class Tree {
   Tree(Sampler& sampler, const Job& job, const PainterSloanSettings& settings)
       : sampler_(sampler), random_(job.seed), plane_(image_plane(job)), settings_(settings) {
     nodes_.reserve(2 * job.samples - 1);
-    nodes_.push_back(leaf(sampler_.take_in(plane_, random_)));
+    leaves_.reserve(2 * job.samples - 1);
+    append({}, leaf(sampler_.take_in(plane_, random_)));
   }
 
   void refine() {
@@ -55,12 +59,13 @@ class Tree {
   void for_each_cell(const VisitCell& visit) const { visit_below(0, plane_, visit); }
 
  private:
-  static Node leaf(const Sample& sample) {
-    Node node;
-    node.mean = sample.rgb;
-    node.x = static_cast<float>(sample.x);
-    node.y = static_cast<float>(sample.y);
-    return node;
+  static Leaf leaf(const Sample& sample) {
+    return {sample.rgb, static_cast<float>(sample.x), static_cast<float>(sample.y), 0};
+  }
+
+  void append(const Node& node, const Leaf& leaf) {
+    nodes_.push_back(node);
+    leaves_.push_back(leaf);
   }
 
   /// True for the second child.
@@ -75,28 +80,26 @@ class Tree {
   void split(std::uint32_t index, const Rectangle& cell) {
     Rectangle halves[2];
     halve(cell, halves[0], halves[1]);
-    const Node old = nodes_[index];
+    const Leaf old = leaves_[index];
     const std::size_t holder = cell.width() >= cell.height()
                                    ? old.x >= static_cast<float>(halves[1].left)
                                    : old.y >= static_cast<float>(halves[1].top);
     const std::size_t empty = 1 - holder;
-    Node children[2];
+    Leaf children[2];
     children[holder] = old;
     children[empty] = leaf(sampler_.take_in(halves[empty], random_));
 
     // Two samples tell little: half of what was expected of the parent remains, so that an edge
     // that they miss is not forgotten at once.
-    const float seen = squared_difference(children[0].mean, children[1].mean) / 2;
+    const float seen = squared_difference(children[0].radiance, children[1].radiance) / 2;
     const float variance = std::max(seen, old.variance / 2);
-    for (std::size_t i = 0; i < 2; ++i) {
-      children[i].variance = variance;
-      const auto area = static_cast<float>(halves[i].area());
-      const auto coverage = static_cast<float>(settings_.coverage * settings_.coverage);
-      children[i].error = area * area * (variance + coverage * std::max(area, 1.0f));
-    }
+    const auto coverage = static_cast<float>(settings_.coverage * settings_.coverage);
     nodes_[index].children = static_cast<std::uint32_t>(nodes_.size());
-    nodes_.push_back(children[0]);
-    nodes_.push_back(children[1]);
+    for (std::size_t i = 0; i < 2; ++i) {
+      const auto area = static_cast<float>(halves[i].area());
+      children[i].variance = variance;
+      append({0, 1, area * area * (variance + coverage * std::max(area, 1.0f))}, children[i]);
+    }
   }
 
   void update(Node& node) const {
@@ -119,7 +122,7 @@ class Tree {
   void visit_below(std::uint32_t index, const Rectangle& cell, const VisitCell& visit) const {
     const Node& node = nodes_[index];
     if (node.children == 0) {
-      visit(cell, node.mean);
+      visit(cell, leaves_[index].radiance);
       return;
     }
     Rectangle halves[2];
@@ -133,6 +136,7 @@ class Tree {
   Rectangle plane_;
   const PainterSloanSettings& settings_;
   std::vector<Node> nodes_;
+  std::vector<Leaf> leaves_;  // of the same index as the node; those of other nodes are stale
   std::vector<std::uint32_t> path_;
 };
 

@@ -11,7 +11,7 @@ namespace baselines {
 
 struct TwoLevelSettings {
   /// Share of the samples, in (0, 1], for the base density.
-  double base_share = 0.5;
+  double base_share = 0.25;
   /// Contrasts of red, green and blue from which on a cell counts as high (Mitchell's). > 0.
   Rgb contrast = {0.4f, 0.3f, 0.6f};
   /// A contrast is judged by at least this many samples (Mitchell: eight or nine): those of the

@@ -1,11 +1,12 @@
 #include "whitted.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <queue>
 #include <tuple>
-#include <unordered_map>
 
 #include "sampler.h"
 #include "supersampling.h"
@@ -40,11 +41,35 @@ struct Candidate {
 
 std::uint64_t key(std::uint32_t x, std::uint32_t y) { return (std::uint64_t{y} << 32) | x; }
 
+/// Numbers of the corners by key: open addressing, because looking corners up takes most of the
+/// time where a radiance is cheap.
+class CornerTable {
+ public:
+  static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+  explicit CornerTable(std::uint64_t most)
+      : keys_(std::bit_ceil(2 * most + 1)), numbers_(keys_.size(), kNone) {}
+
+  /// The number of a corner, kNone when it is new. Set it then, before the next call.
+  std::uint32_t& operator[](std::uint64_t key) {
+    const std::uint64_t mask = keys_.size() - 1;
+    std::uint64_t slot = (key ^ (key >> 29)) * 0x9e3779b97f4a7c15U;
+    for (slot = (slot ^ (slot >> 32)) & mask; numbers_[slot] != kNone; slot = (slot + 1) & mask) {
+      if (keys_[slot] == key) return numbers_[slot];
+    }
+    keys_[slot] = key;
+    return numbers_[slot];
+  }
+
+ private:
+  std::vector<std::uint64_t> keys_;
+  std::vector<std::uint32_t> numbers_;
+};
+
 class Subdivision {
  public:
   Subdivision(Sampler& sampler, const Job& job, const WhittedSettings& settings)
-      : sampler_(sampler), settings_(settings) {
-    corner_at_.reserve(job.samples);
+      : sampler_(sampler), settings_(settings), corner_at_(job.samples) {
     radiances_.reserve(job.samples);
     cover(job);
   }
@@ -82,13 +107,13 @@ class Subdivision {
   }
 
   std::uint32_t corner(std::uint32_t x, std::uint32_t y) {
-    const auto [found, is_new] =
-        corner_at_.try_emplace(key(x, y), static_cast<std::uint32_t>(radiances_.size()));
-    if (is_new) {
+    std::uint32_t& number = corner_at_[key(x, y)];
+    if (number == CornerTable::kNone) {
+      number = static_cast<std::uint32_t>(radiances_.size());
       radiances_.push_back(
           sampler_.take(static_cast<double>(x) / kPoints, static_cast<double>(y) / kPoints).rgb);
     }
-    return found->second;
+    return number;
   }
 
   void append(std::uint32_t left, std::uint32_t top, std::uint32_t right, std::uint32_t bottom) {
@@ -127,9 +152,8 @@ class Subdivision {
     const std::uint32_t y = std::midpoint(square.top, square.bottom);
     const std::uint64_t keys[5] = {key(x, y), key(x, square.top), key(square.left, y),
                                    key(square.right, y), key(x, square.bottom)};
-    const auto missing = static_cast<std::uint64_t>(
-        std::count_if(std::begin(keys), std::end(keys),
-                      [&](std::uint64_t k) { return !corner_at_.contains(k); }));
+    std::uint64_t missing = 0;
+    for (const std::uint64_t k : keys) missing += corner_at_[k] == CornerTable::kNone;
     if (missing > sampler_.left()) return false;
     candidates_.pop();
     // Too small for the lattice.
@@ -171,8 +195,8 @@ class Subdivision {
 
   Sampler& sampler_;
   const WhittedSettings& settings_;
-  std::unordered_map<std::uint64_t, std::uint32_t> corner_at_;  // index of the corner at a key
-  std::vector<Rgb> radiances_;                                  // of the corners
+  CornerTable corner_at_;
+  std::vector<Rgb> radiances_;  // of the corners
   std::vector<Square> squares_;
   std::vector<bool> divided_;
   std::priority_queue<Candidate> candidates_;
