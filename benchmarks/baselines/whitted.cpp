@@ -94,14 +94,15 @@ class Subdivision {
     const double share = settings_.base_share * static_cast<double>(job.samples);
     // Four corners are the least.
     const auto affordable = std::max(static_cast<std::uint64_t>(share), std::uint64_t{4});
-    std::size_t step = 1;
-    const auto lines = [&step](std::size_t size) { return (size + step - 1) / step + 1; };
-    while (lines(job.width) * lines(job.height) > affordable) step *= 2;
-    for (std::size_t y = 0; y < job.height; y += step) {
-      for (std::size_t x = 0; x < job.width; x += step) {
-        append(static_cast<std::uint32_t>(x) * kPoints, static_cast<std::uint32_t>(y) * kPoints,
-               static_cast<std::uint32_t>(std::min(x + step, job.width)) * kPoints,
-               static_cast<std::uint32_t>(std::min(y + step, job.height)) * kPoints);
+    const auto width = static_cast<std::uint32_t>(job.width) * kPoints;
+    const auto height = static_cast<std::uint32_t>(job.height) * kPoints;
+    // In lattice points: from 1/16 of a pixel on.
+    std::uint32_t step = kPoints / 16;
+    const auto lines = [&step](std::uint64_t size) { return (size + step - 1) / step + 1; };
+    while (lines(width) * lines(height) > affordable) step *= 2;
+    for (std::uint32_t y = 0; y < height; y += step) {
+      for (std::uint32_t x = 0; x < width; x += step) {
+        append(x, y, std::min(x + step, width), std::min(y + step, height));
       }
     }
   }
