@@ -1,7 +1,6 @@
 // Renders a scene with freqsynth, or with jittered samples for comparison.
 
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -17,6 +16,7 @@
 #include "freqsynth/freqsynth.h"
 #include "options.h"
 #include "picture.h"
+#include "progress_bar.h"
 #include "reference.h"
 #include "sampling.h"
 #include "scenes/scene.h"
@@ -25,35 +25,6 @@ namespace {
 
 /// Samples per pixel of the pictures of figures 12 and 14.
 constexpr std::array frame_rates{1.0 / 64, 1.0 / 32, 1.0 / 16, 1.0 / 8, 1.0 / 4, 1.0 / 2, 1.0, 2.0};
-
-/// A line that is drawn over on a terminal, and nothing elsewhere.
-class ProgressBar {
- public:
-  void show(double share) {
-    const int percent = static_cast<int>(100 * share);
-    if (!terminal_ || percent == percent_) return;
-    percent_ = percent;
-    const std::string done(static_cast<std::size_t>(std::clamp(percent, 0, 100) / 2), '#');
-    std::fprintf(stderr, "\r[%-50s] %3d%%", done.c_str(), percent);
-    if (percent >= 100) clear();
-  }
-  /// For a run without a known end.
-  void count(double samples_per_pixel) {
-    if (!terminal_) return;
-    percent_ = 0;
-    std::fprintf(stderr, "\r%10.2f samples per pixel", samples_per_pixel);
-  }
-  ~ProgressBar() { clear(); }
-
- private:
-  void clear() {
-    if (terminal_ && percent_ >= 0) std::fprintf(stderr, "\r%60s\r", "");
-    percent_ = -1;
-  }
-
-  bool terminal_ = isatty(STDERR_FILENO) != 0;
-  int percent_ = -1;
-};
 
 struct Seconds {
   double sampler = 0, core = 0, wall = 0;

@@ -3,58 +3,12 @@
 #include <OpenImageIO/argparse.h>
 
 #include <array>
-#include <charconv>
-#include <cmath>
 #include <limits>
 #include <string_view>
 
 #include "scenes/scene.h"
 
 namespace {
-
-[[noreturn]] void refuse(std::string_view option, std::string_view value, std::string_view wanted) {
-  throw UsageError(std::string(option) + " " + std::string(value) + ": not " + std::string(wanted));
-}
-
-template <class Number>
-bool read_all(std::string_view text, Number& number) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  return error == std::errc() && end == text.data() + text.size();
-}
-
-/// A whole number from `least` on.
-template <class Number>
-void read_count(std::string_view option, const std::string& text, Number least, Number& number) {
-  if (text.empty()) return;
-  if (!read_all(text, number) || number < least) {
-    refuse(option, text, "a whole number from " + std::to_string(least));
-  }
-}
-
-/// A finite number > 0, also as a fraction: 1/64.
-void read_positive(std::string_view option, const std::string& text, double& number) {
-  if (text.empty()) return;
-  const std::size_t slash = text.find('/');
-  double denominator = 1;
-  const bool read = read_all(std::string_view(text).substr(0, slash), number) &&
-                    (slash == std::string::npos ||
-                     read_all(std::string_view(text).substr(slash + 1), denominator));
-  number /= denominator;
-  if (!read || !(number > 0) || !std::isfinite(number)) {
-    refuse(option, text, "a number > 0 such as 0.5 or 1/64");
-  }
-}
-
-void read_size(const std::string& text, Options& options) {
-  if (text.empty()) return;
-  const std::size_t cross = text.find('x');
-  if (cross == std::string::npos ||
-      !read_all(std::string_view(text).substr(0, cross), options.width) ||
-      !read_all(std::string_view(text).substr(cross + 1), options.height) || options.width == 0 ||
-      options.height == 0 || options.width > 65536 || options.height > 65536) {
-    refuse("--size", text, "WIDTHxHEIGHT with both in 1..65536");
-  }
-}
 
 /// A quality of JPEG.
 void read_quality(std::string_view option, const std::string& text, std::optional<int>& quality) {
@@ -139,7 +93,7 @@ std::optional<Options> parse_options(int argc, const char** argv) {
     return std::nullopt;
   }
 
-  read_size(size, options);
+  read_size("--size", size, options.width, options.height);
   read_positive("--spp", spp, options.samples_per_pixel);
   read_count<std::size_t>("--reference", reference, 1, options.reference);
   read_count<std::size_t>("--wave", wave, 1, options.wave);

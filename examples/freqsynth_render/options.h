@@ -3,12 +3,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <stdexcept>
 #include <string>
 
 #include "freqsynth/butterworth.h"
 #include "freqsynth/quantization.h"
 #include "freqsynth/reconstructor.h"
+#include "option_values.h"
 
 /// In what the values of a pixel are averaged.
 enum class Averaging : std::uint8_t {
@@ -44,12 +44,6 @@ struct Options {
   bool progressive = false;
   std::optional<int> until_quality;
   double tolerance = 0.25;
-};
-
-/// The command line is wrong.
-class UsageError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
 };
 
 /// One line that shows the options that are always needed.

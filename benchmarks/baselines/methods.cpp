@@ -1,0 +1,82 @@
+#include "methods.h"
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "alpha_trimmed.h"
+#include "dippe_wold.h"
+#include "energy_preserving.h"
+#include "painter_sloan.h"
+#include "supersampling.h"
+#include "two_level.h"
+#include "whitted.h"
+
+namespace baselines {
+namespace {
+
+auto supersample(bool jittered, PixelFilter filter) {
+  return [=](const Radiance& radiance, const Job& job) {
+    return supersampling(radiance, job, {.jittered = jittered, .filter = filter});
+  };
+}
+
+std::vector<Method> make_methods() {
+  const auto jittered_box = supersample(true, PixelFilter::box);
+  return {
+      {"uniform-box", "regular grid, mean of the pixel", "Whitted 1980",
+       supersample(false, PixelFilter::box)},
+      {"jittered-box", "jittered grid, mean of the pixel", "Cook 1986", jittered_box},
+      {"jittered-tent", "jittered grid, weighted average, tent 2 pixels wide", "Cook 1986",
+       supersample(true, PixelFilter::tent)},
+      {"jittered-gaussian", "jittered grid, weighted average, Gaussian 3 pixels wide", "Cook 1986",
+       supersample(true, PixelFilter::gaussian)},
+      {"jittered-mitchell", "jittered grid, weighted average, cubic 4 pixels wide",
+       "Mitchell and Netravali 1988", supersample(true, PixelFilter::mitchell_netravali)},
+      {"whitted", "squares divided by the contrast of their corners", "Whitted 1980",
+       [](const Radiance& radiance, const Job& job) { return whitted(radiance, job); }},
+      {"two-level-box", "more samples where contrast is high, mean of the pixel",
+       "Cook 1986, Mitchell 1987",
+       [](const Radiance& radiance, const Job& job) { return two_level(radiance, job); }},
+      {"two-level-multistage", "more samples where contrast is high, multi-stage filter",
+       "Mitchell 1987",
+       [](const Radiance& radiance, const Job& job) {
+         return two_level(radiance, job, {.multi_stage = true});
+       }},
+      {"painter-sloan", "tree of samples refined by variance and area, exact mean of its cells",
+       "Painter and Sloan 1989",
+       [](const Radiance& radiance, const Job& job) { return painter_sloan(radiance, job); }},
+      {"dippe-wold", "jittered grid, filter width by local signal to noise ratio",
+       "Dippe and Wold 1985",
+       [](const Radiance& radiance, const Job& job) { return dippe_wold(radiance, job); }},
+      {"jittered-alpha-trimmed", "jittered-box, then a filter that discards outliers",
+       "Lee and Redner 1990",
+       [=](const Radiance& radiance, const Job& job) {
+         return alpha_trimmed(jittered_box(radiance, job));
+       }},
+      {"jittered-energy-preserving", "jittered-box, then a filter that spreads outliers",
+       "Rushmeier and Ward 1994",
+       [=](const Radiance& radiance, const Job& job) {
+         return energy_preserving(jittered_box(radiance, job));
+       }},
+  };
+}
+
+}  // namespace
+
+std::span<const Method> methods() {
+  static const std::vector<Method> all = make_methods();
+  return all;
+}
+
+const Method& method(std::string_view name) {
+  std::string known;
+  for (const Method& each : methods()) {
+    if (each.name == name) return each;
+    known.append(known.empty() ? "" : ", ").append(each.name);
+  }
+  throw std::invalid_argument("unknown method '" + std::string(name) + "' (known are " + known +
+                              ")");
+}
+
+}  // namespace baselines

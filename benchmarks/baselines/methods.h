@@ -1,0 +1,31 @@
+/// \file
+/// The list of all systems.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string_view>
+
+#include "rendering.h"
+
+namespace baselines {
+
+/// A system with its default settings.
+struct Method {
+  std::string_view name;         ///< stable, lower case, with hyphens
+  std::string_view description;  ///< one line
+  std::string_view paper;        ///< authors and year
+  std::function<Rendering(const Radiance&, const Job&)> render;
+  /// Least samples per pixel that it is made for. It gives a picture below that, too, down to one
+  /// sample in all.
+  double least_rate = 0;
+};
+
+/// All systems.
+[[nodiscard]] std::span<const Method> methods();
+
+/// The system of that name.
+/// \throws std::invalid_argument, naming it and the known ones, when there is none.
+[[nodiscard]] const Method& method(std::string_view name);
+
+}  // namespace baselines

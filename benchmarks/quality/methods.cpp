@@ -1,0 +1,193 @@
+#include "methods.h"
+
+#include <time.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "freqsynth/freqsynth.h"
+
+namespace quality {
+namespace {
+
+/// Processor time of the calling thread, in seconds: other threads and other programs do not count.
+double thread_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+enum class Estimate { finished, paper };
+
+baselines::Rendering synthesize(const baselines::Radiance& radiance, const baselines::Job& job,
+                                Estimate estimate) {
+  freqsynth::SynthesisSettings settings;
+  settings.width = job.width;
+  settings.height = job.height;
+  settings.list.seed = job.seed;
+  // Room for blocks with four times the average.
+  const double average =
+      64 * static_cast<double>(job.samples) / static_cast<double>(job.width * job.height);
+  settings.max_samples_per_block = static_cast<std::size_t>(
+      std::clamp<double>(4 * average, 4096, freqsynth::SampleSequence::max_size));
+  freqsynth::Synthesizer engine(settings);
+
+  baselines::Rendering result{job.width, job.height, {}, {}};
+  result.samples.resize(job.width * job.height);
+  const auto pixel_of = [](double position, std::size_t size) {
+    return std::min(static_cast<std::size_t>(position), size - 1);
+  };
+  const auto sampler = [&](std::span<const freqsynth::Request> requests, std::span<float> values) {
+    for (std::size_t i = 0; i < requests.size(); ++i) {
+      const freqsynth::Request& request = requests[i];
+      radiance(request.x, request.y, request.id, values.subspan(3 * i).first<3>());
+      ++result
+            .samples[pixel_of(request.y, job.height) * job.width + pixel_of(request.x, job.width)];
+    }
+  };
+  engine.run(sampler, {.samples = job.samples});
+  result.pixels = freqsynth::reconstruct(
+      estimate == Estimate::finished ? engine.finished_image() : engine.image(),
+      {.clamp_negative = true});
+  return result;
+}
+
+std::vector<Method> all_methods() {
+  // One sample in each block is the least that shows the whole picture.
+  constexpr double one_per_block = 1.0 / 64;
+  std::vector<Method> all;
+  all.push_back({"freqsynth", "this library: the fit and its residuals, finished pixels",
+                 "Bolin 1995",
+                 [](const baselines::Radiance& radiance, const baselines::Job& job) {
+                   return synthesize(radiance, job, Estimate::finished);
+                 },
+                 one_per_block});
+  all.push_back({"freqsynth-paper", "the paper's estimate: the fit alone, Butterworth, pixel means",
+                 "Bolin 1995",
+                 [](const baselines::Radiance& radiance, const baselines::Job& job) {
+                   return synthesize(radiance, job, Estimate::paper);
+                 },
+                 one_per_block});
+  detail::add_baselines(all);
+  return all;
+}
+
+/// Stands between a method and the scene: counts calls and keeps some positions.
+class Meter {
+ public:
+  Meter(const baselines::Radiance& radiance, const baselines::Job& job)
+      : radiance_(radiance),
+        job_(job),
+        stride_(std::max<std::uint64_t>(1, job.samples / enough_calls)),
+        samples_(job.width * job.height) {
+    kept_.reserve(static_cast<std::size_t>(job.samples / stride_ + 1));
+  }
+
+  void operator()(double x, double y, std::uint64_t id, std::span<float, 3> rgb) {
+    radiance_(x, y, id, rgb);
+    const bool inside = x >= 0 && y >= 0 && x <= static_cast<double>(job_.width) &&
+                        y <= static_cast<double>(job_.height);
+    if (calls_++ % stride_ == 0) kept_.push_back({x, y, id});
+    if (!inside) {
+      ++outside_;
+      return;
+    }
+    const std::size_t column = std::min(static_cast<std::size_t>(x), job_.width - 1);
+    const std::size_t row = std::min(static_cast<std::size_t>(y), job_.height - 1);
+    ++samples_[row * job_.width + column];
+  }
+
+  [[nodiscard]] std::uint64_t calls() const { return calls_; }
+  [[nodiscard]] std::uint64_t outside() const { return outside_; }
+  [[nodiscard]] std::vector<std::uint32_t> take_samples() { return std::move(samples_); }
+
+  /// See Run::sampler_seconds.
+  [[nodiscard]] double sampler_seconds() const {
+    if (kept_.empty()) return 0;
+    std::array<float, 3> rgb{};
+    double least = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < 2; ++i) {
+      const double begin = thread_seconds();
+      for (const Call& call : kept_) radiance_(call.x, call.y, call.id, rgb);
+      least = std::min(least, thread_seconds() - begin);
+    }
+    return least * static_cast<double>(calls_) / static_cast<double>(kept_.size());
+  }
+
+ private:
+  static constexpr std::uint64_t enough_calls = 65536;
+  struct Call {
+    double x, y;
+    std::uint64_t id;
+  };
+
+  const baselines::Radiance& radiance_;
+  const baselines::Job& job_;
+  std::uint64_t stride_;
+  std::uint64_t calls_ = 0;
+  std::uint64_t outside_ = 0;
+  std::vector<std::uint32_t> samples_;
+  std::vector<Call> kept_;
+};
+
+}  // namespace
+
+std::span<const Method> methods() {
+  static const std::vector<Method> all = all_methods();
+  return all;
+}
+
+const Method& find_method(std::string_view name) {
+  std::string known;
+  for (const Method& method : methods()) {
+    if (method.name == name) return method;
+    known.append(known.empty() ? "" : ", ").append(method.name);
+  }
+  std::string said = "unknown method '";
+  throw std::invalid_argument(said.append(name).append("' (known are ").append(known).append(")"));
+}
+
+Run run_method(const Method& method, const baselines::Radiance& radiance,
+               const baselines::Job& job) {
+  Meter meter(radiance, job);
+  const double begin = thread_seconds();
+  baselines::Rendering rendering = method.render(std::ref(meter), job);
+  const double seconds = thread_seconds() - begin;
+
+  const auto refuse = [&](const std::string& what) {
+    std::string said = method.name;
+    throw std::runtime_error(said.append(": ").append(what));
+  };
+  if (meter.calls() > job.samples) {
+    refuse(std::to_string(meter.calls()) + " samples taken, " + std::to_string(job.samples) +
+           " allowed");
+  }
+  if (meter.outside() != 0) refuse(std::to_string(meter.outside()) + " samples taken outside");
+  if (rendering.width != job.width || rendering.height != job.height ||
+      rendering.pixels.size() != 3 * job.width * job.height) {
+    refuse("a picture of " + std::to_string(rendering.width) + " x " +
+           std::to_string(rendering.height) + " pixels and " +
+           std::to_string(rendering.pixels.size()) + " values, not of " +
+           std::to_string(job.width) + " x " + std::to_string(job.height));
+  }
+  Run run;
+  run.calls = meter.calls();
+  run.seconds = seconds;
+  run.sampler_seconds = meter.sampler_seconds();
+  run.pixels = std::move(rendering.pixels);
+  run.samples = meter.take_samples();
+  return run;
+}
+
+std::uint64_t samples_of(double rate, std::size_t width, std::size_t height) {
+  const double samples =
+      std::round(rate * static_cast<double>(width) * static_cast<double>(height));
+  return std::max<std::uint64_t>(1, static_cast<std::uint64_t>(samples));
+}
+
+}  // namespace quality

@@ -1,0 +1,29 @@
+/// \file
+/// The one place that knows the interface of the scenes.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "baselines/rendering.h"
+#include "quality/reference.h"
+#include "scenes/scene.h"
+
+namespace quality {
+
+/// The scene as the methods see it. The scene must outlive the result.
+inline baselines::Radiance radiance_of(const scenes::Scene& scene) {
+  return [&scene](double x, double y, std::uint64_t id, std::span<float, 3> rgb) {
+    scene.radiance(x, y, id, rgb);
+  };
+}
+
+/// The pixels whose average the scene knows. The scene must outlive the result.
+inline PixelAverage pixel_average_of(const scenes::Scene& scene) {
+  return [&scene](std::size_t x, std::size_t y, std::span<float, 3> rgb) {
+    return scene.pixel_average(static_cast<long>(x), static_cast<long>(y), rgb);
+  };
+}
+
+}  // namespace quality
