@@ -11,11 +11,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 #include <vector>
-
-#include <jpeglib.h>
 
 #include "fixtures.h"
 #include "freqsynth/display_encoding.h"
@@ -23,6 +19,7 @@
 #include "freqsynth/quantization.h"
 #include "freqsynth/reconstructor.h"
 #include "freqsynth/synthesizer.h"
+#include "pixels_to_jpeg.h"
 
 namespace freqsynth::bench {
 namespace {
@@ -71,35 +68,6 @@ void quantization(benchmark::State& state, Subsampling subsampling) {
   for (auto _ : state) benchmark::DoNotOptimize(quantize(image, settings).components.data());
 }
 
-std::size_t compress(const std::vector<std::uint8_t>& pixels, std::size_t width, std::size_t height,
-                     Subsampling subsampling, bool optimize) {
-  jpeg_compress_struct info;
-  jpeg_error_mgr errors;
-  info.err = jpeg_std_error(&errors);
-  jpeg_create_compress(&info);
-  unsigned char* bytes = nullptr;
-  unsigned long size = 0;
-  jpeg_mem_dest(&info, &bytes, &size);
-  info.image_width = static_cast<JDIMENSION>(width);
-  info.image_height = static_cast<JDIMENSION>(height);
-  info.input_components = 3;
-  info.in_color_space = JCS_YCbCr;
-  jpeg_set_defaults(&info);
-  jpeg_set_quality(&info, quality, TRUE);
-  info.comp_info[0].h_samp_factor = info.comp_info[0].v_samp_factor =
-      subsampling == Subsampling::both ? 2 : 1;
-  info.optimize_coding = optimize ? TRUE : FALSE;
-  jpeg_start_compress(&info, TRUE);
-  while (info.next_scanline < info.image_height) {
-    auto* row = const_cast<JSAMPLE*>(pixels.data() + info.next_scanline * width * 3);
-    jpeg_write_scanlines(&info, &row, 1);
-  }
-  jpeg_finish_compress(&info);
-  jpeg_destroy_compress(&info);
-  std::free(bytes);
-  return size;
-}
-
 void pixels(benchmark::State& state, Subsampling subsampling, bool optimize) {
   const FrequencyImage& image = full_hd();
   const std::size_t width = image.width(), height = image.height();
@@ -116,7 +84,9 @@ void pixels(benchmark::State& state, Subsampling subsampling, bool optimize) {
         bytes[i + c] = static_cast<std::uint8_t>(std::clamp(shifted, 0.0f, 255.0f));
       }
     }
-    size = compress(bytes, width, height, subsampling, optimize);
+    size = pixels_to_jpeg(bytes, width, height,
+                          {.quality = quality, .subsampling = subsampling, .optimize = optimize})
+               .size();
   }
   state.counters["bytes"] = static_cast<double>(size);
 }
