@@ -77,6 +77,8 @@ Synthesizer::Synthesizer(SynthesisSettings settings)
   states_.resize(blocks * state_stride_ * sizeof(float) / sizeof(StateLine));
   counts_.resize(blocks);
   variations_.resize(blocks);
+  residuals_.resize(blocks * settings_.channels);
+  residual_sums_.resize(settings_.channels);
   in_wave_.resize(blocks);
   factors_.resize(blocks, 1);
   sums_.resize(settings_.channels);
@@ -305,11 +307,12 @@ void Synthesizer::finish_wave() {
   ++stats_.waves;
   slots_.clear();
   next_slot_ = delivered_slots_ = 0;
+  for (const std::uint32_t block : touched_) note_residuals(block);
   if (untouched_blocks_ == 0 && variance_ == 0) {
     rescale();
   } else {
     for (const std::uint32_t block : touched_) queue_.update(block, priority_of(block));
-    if (settings_.quantization) revise_neighbours();
+    revise_neighbours();
   }
   for (const std::uint32_t block : touched_) in_wave_[block] = 0;
   touched_.clear();
@@ -380,10 +383,11 @@ void Synthesizer::rescale() {
     const double mean_square = squares_[c] / count;
     // A flat first impression leaves some doubt, in proportion to the level, so that blocks stay in
     // order.
-    const double least = std::max(1e-6 * mean_square, 1e-30);
+    const double least = std::max(1e-6 * mean_square, 1e-24);
     const double variance = std::max(mean_square - mean * mean, least);
     channel_variances_[c] = static_cast<float>(variance);
     sum += variance;
+    rounding_ += static_cast<float>(1e-12 * mean_square) * refiner_.weights()[c];
   }
   variance_ = static_cast<float>(sum / static_cast<double>(settings_.channels));
   for (std::size_t b = 0; b < queue_.size(); ++b) {
@@ -402,47 +406,75 @@ float Synthesizer::priority_of(std::uint32_t block) const {
     const bool done = error <= allowed && count >= QuantizationTarget::least_samples;
     return done ? 0 : factors_[block] * std::max(error, allowed) / static_cast<float>(count);
   }
-  return factors_[block] * metric_.priority(variations_[block], count, variance_);
+  if (settings_.priority.measure == PriorityMeasure::change) {
+    return factors_[block] * metric_.priority(variations_[block], count, variance_);
+  }
+  float residual = rounding_;
+  for (std::size_t c = 0; c < settings_.channels; ++c) {
+    residual += refiner_.weights()[c] *
+                pooled_residual(block, c, static_cast<float>(settings_.priority.image));
+  }
+  const std::size_t terms = refiner_.list().terms(count - 1);
+  return factors_[block] * metric_.expected_change(residual, count, terms, variance_);
 }
 
 void Synthesizer::revise_neighbours() {
+  const bool target = settings_.quantization.has_value();
+  if (!target && settings_.priority.measure == PriorityMeasure::change) return;
   for (const std::uint32_t block : touched_) {
     visit_beside(block, [&](std::uint32_t other) {
-      const bool done = queue_.priority(other) == 0;
-      if (done && in_wave_[other] == 0) queue_.update(other, priority_of(other));
+      // Of the blocks that meet a target only whether they still do is of interest.
+      const bool revise = !target || queue_.priority(other) == 0;
+      if (revise && in_wave_[other] == 0) queue_.update(other, priority_of(other));
     });
   }
 }
 
-float Synthesizer::residual_variance(std::uint32_t block, std::size_t channel,
-                                     float& freedom) const {
+/// Degrees of freedom of the residuals of a block.
+float Synthesizer::freedom_of(std::uint32_t block) const {
   const std::uint32_t count = counts_[block];
   const std::size_t terms = count > 0 ? refiner_.list().terms(count - 1) : 0;
-  freedom = static_cast<float>(count > terms ? count - terms : 1);
-  return refiner_.squared_residuals(state_of(block), channel) / freedom;
+  return static_cast<float>(count > terms ? count - terms : 1);
+}
+
+void Synthesizer::note_residuals(std::uint32_t block) {
+  const float freedom = freedom_of(block);
+  for (std::size_t c = 0; c < settings_.channels; ++c) {
+    float& residual = residuals_[block * settings_.channels + c];
+    const float now = refiner_.squared_residuals(state_of(block), c) / freedom;
+    residual_sums_[c] += double{now} - double{residual};
+    residual = now;
+  }
+}
+
+/// Variance of the residuals of a channel of a block, pooled with that of the blocks beside it and,
+/// as `image` samples, with that of all blocks.
+float Synthesizer::pooled_residual(std::uint32_t block, std::size_t channel, float image) const {
+  const std::size_t channels = settings_.channels;
+  float weight = freedom_of(block);
+  float sum = weight * residuals_[block * channels + channel];
+  float beside = 0, blocks = 0;
+  visit_beside(block, [&](std::uint32_t other) {
+    beside += residuals_[other * channels + channel];
+    ++blocks;
+  });
+  if (blocks > 0) {
+    const auto neighbours = static_cast<float>(settings_.priority.neighbours);
+    sum += neighbours * beside / blocks;
+    weight += neighbours;
+  }
+  sum += image * static_cast<float>(residual_sums_[channel] / static_cast<double>(queue_.size()));
+  return sum / (weight + image);
 }
 
 float Synthesizer::quantized_error_of(std::uint32_t block) const {
-  // A regular pattern may look flat on the first samples of a whole block. Its neighbours know
-  // better: they count as some samples with their own residuals.
-  constexpr float neighbours_freedom = 16;
   const std::uint32_t count = counts_[block];
   float error = 0;
   std::array<float, max_terms> coefficients;
   for (std::size_t c = 0; c < settings_.channels; ++c) {
-    float freedom = 0, others_freedom = 0, others = 0, neighbours = 0;
-    const float own = residual_variance(block, c, freedom);
-    visit_beside(block, [&](std::uint32_t other) {
-      others += residual_variance(other, c, others_freedom);
-      ++neighbours;
-    });
-    float residual = own;
-    if (neighbours > 0) {
-      residual = (own * freedom + others / neighbours * neighbours_freedom) /
-                 (freedom + neighbours_freedom);
-    }
-    residual *= settings_.quantization->evenness(count);
-    residual += metric_.priority(0, count, channel_variances_[c]);
+    float residual = pooled_residual(block, c, 0);
+    if (!settings_.noisy) residual *= evenness(count);
+    residual += metric_.uncertainty(count, channel_variances_[c]);
     refiner_.coefficients(state_of(block), count, c, coefficients);
     error += quantized_error(settings_.quantization->steps[c], coefficients,
                              refiner_.list().variances(count - 1), residual);
@@ -464,6 +496,10 @@ FrequencyImage Synthesizer::image() const {
   return image;
 }
 
+FrequencyImage Synthesizer::finished_image() const {
+  return finished_image(settings_.noisy ? FinishSettings::noisy() : FinishSettings{});
+}
+
 FrequencyImage Synthesizer::finished_image(const FinishSettings& settings) const {
   const std::lock_guard lock(mutex_);
   FrequencyImage image(settings_.width, settings_.height, settings_.channels,
@@ -483,7 +519,7 @@ FrequencyImage Synthesizer::finished_image(const FinishSettings& settings) const
     for (std::size_t c = 0; c < settings_.channels; ++c) {
       refiner_.coefficients(state_of(block), count, c, coefficients);
       finisher.finish(coefficients, refiner_.pixel_sums(state_of(block), c),
-                      image.coefficients(x, y, c));
+                      residuals_[block * settings_.channels + c], image.coefficients(x, y, c));
     }
   }
   return image;

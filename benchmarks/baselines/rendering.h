@@ -22,6 +22,9 @@ struct Job {
   std::size_t height = 0;     ///< pixels, at least 1
   std::uint64_t samples = 0;  ///< calls of the radiance function that are allowed, at least 1
   std::uint64_t seed = 0;     ///< of all random choices
+  /// The radiance function is a Monte Carlo estimate that depends on the id. A host knows this; a
+  /// method may use it.
+  bool noisy = false;
 };
 
 /// A picture and what it cost.

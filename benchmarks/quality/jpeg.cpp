@@ -113,6 +113,7 @@ Synthesis synthesize(const Subject& subject, const freqsynth::StopRule& stop, bo
                      const std::optional<freqsynth::QuantizationTarget>& target,
                      freqsynth::ThreadPool& pool) {
   freqsynth::SynthesisSettings settings{.width = subject.size, .height = subject.size};
+  settings.noisy = subject.scene->noisy();
   settings.quantization = target;
   freqsynth::Synthesizer engine(settings);
   const auto sampler = [&](std::span<const freqsynth::Request> requests, std::span<float> values) {
@@ -152,8 +153,8 @@ void print_until_quality(const std::vector<Subject>& subjects, freqsynth::Thread
     for (const int quality : qualities) {
       const Bytes converged = file_of_pixels(subject.display, subject.size, quality);
       const Pixels goal = pixels_of(converged);
-      freqsynth::QuantizationTarget target = freqsynth::quantization_target(tables_of(quality), 3);
-      target.noise_free = !subject.scene->noisy();
+      const freqsynth::QuantizationTarget target =
+          freqsynth::quantization_target(tables_of(quality), 3);
       const Synthesis weighted = synthesize(subject, {}, true, target, pool);
       const Synthesis unweighted =
           synthesize(subject, {.samples = weighted.samples}, true, std::nullopt, pool);

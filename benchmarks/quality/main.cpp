@@ -144,7 +144,8 @@ void perform(const Options& options, Task& task) {
     const quality::Run run =
         quality::run_method(*task.method, subject.radiance,
                             {options.width, options.height,
-                             quality::samples_of(task.rate, options.width, options.height), seed});
+                             quality::samples_of(task.rate, options.width, options.height), seed,
+                             subject.scene->noisy()});
     const Metrics metrics =
         quality::measure({options.width, options.height, run.pixels}, reference, run.samples);
     for (const auto field : fields) result.metrics.*field += metrics.*field / seeds;

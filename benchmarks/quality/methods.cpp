@@ -30,6 +30,8 @@ baselines::Rendering synthesize(const baselines::Radiance& radiance, const basel
   settings.width = job.width;
   settings.height = job.height;
   settings.list.seed = job.seed;
+  settings.noisy = job.noisy;
+  if (estimate == Estimate::paper) settings.priority.measure = freqsynth::PriorityMeasure::change;
   // Room for blocks with four times the average.
   const double average =
       64 * static_cast<double>(job.samples) / static_cast<double>(job.width * job.height);
@@ -45,7 +47,9 @@ baselines::Rendering synthesize(const baselines::Radiance& radiance, const basel
   const auto sampler = [&](std::span<const freqsynth::Request> requests, std::span<float> values) {
     for (std::size_t i = 0; i < requests.size(); ++i) {
       const freqsynth::Request& request = requests[i];
-      radiance(request.x, request.y, request.id, values.subspan(3 * i).first<3>());
+      // Other seeds get other noise.
+      const std::uint64_t id = request.id ^ (job.seed << 40);
+      radiance(request.x, request.y, id, values.subspan(3 * i).first<3>());
       ++result
             .samples[pixel_of(request.y, job.height) * job.width + pixel_of(request.x, job.width)];
     }

@@ -78,8 +78,11 @@ void write_stats(const Options& options, const freqsynth::SynthesisStats& stats,
 /// Finished pixels, or the paper's function where the user asks for it.
 freqsynth::FrequencyImage image_of(const freqsynth::Synthesizer& engine, const Options& options) {
   if (options.pixel_filter == freqsynth::PixelFilter::none) return engine.image();
-  return engine.finished_image(
-      {.butterworth = options.butterworth, .residuals = !options.no_residuals});
+  freqsynth::FinishSettings settings;
+  if (engine.settings().noisy) settings = freqsynth::FinishSettings::noisy();
+  settings.butterworth = options.butterworth;
+  settings.residuals = !options.no_residuals;
+  return engine.finished_image(settings);
 }
 
 Picture picture_of(const freqsynth::FrequencyImage& image, const Options& options, double scale) {
@@ -133,12 +136,12 @@ void synthesize(const Options& options, const scenes::Scene& scene) {
   settings.height = options.height;
   settings.channels = options.gray ? 1 : 3;
   settings.wave = options.wave;
+  settings.noisy = scene.noisy();
   settings.list.seed = options.seed;
   settings.list.samples_per_term = options.terms_every;
   if (options.until_quality) {
     settings.quantization = freqsynth::quantization_target(quantization_of(options),
                                                            settings.channels, options.tolerance);
-    settings.quantization->noise_free = !scene.noisy();
   }
   // Room for blocks with four times the average.
   const double generous = 4 * 64 * options.samples_per_pixel;

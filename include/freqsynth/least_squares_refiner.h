@@ -42,6 +42,8 @@ class LeastSquaresRefiner {
 
   [[nodiscard]] const InverseList& list() const { return *list_; }
   [[nodiscard]] std::size_t channels() const { return channels_; }
+  /// Weight of each channel.
+  [[nodiscard]] std::span<const float> weights() const { return weights_; }
   /// Floats in the state of a block. States are aligned to 32 bytes.
   [[nodiscard]] std::size_t state_size() const {
     return 2 * channels_ * max_terms + (channels_ + 15) / 16 * 16;

@@ -30,25 +30,24 @@ struct QuantizationTarget {
   /// all coefficients: 1/12 for each. Finite and > 0; at 1/4 sampling takes at most 1 dB from such
   /// a block.
   double tolerance = 0.25;
-  /// The sampler is a function of the position alone, not a Monte Carlo estimate. Then the error at
-  /// an edge falls with n^(-3/2) instead of 1/n once there is more than a sample per pixel, because
-  /// samples are spread evenly; fewer of them are needed.
-  bool noise_free = false;
 
   /// The most squared error of a block that is done, in squared steps.
   [[nodiscard]] double allowed_error() const {
     return tolerance * static_cast<double>(max_terms * steps.size()) / 12;
   }
-  /// Factor on the squared error that least squares expects of `samples` independent samples.
-  [[nodiscard]] float evenness(std::size_t samples) const {
-    constexpr std::size_t pixels = block_size * block_size;
-    if (!noise_free || samples <= pixels) return 1;
-    return std::sqrt(static_cast<float>(pixels) / static_cast<float>(samples));
-  }
 
   /// \throws std::invalid_argument naming the field and the value when out of range.
   void validate(std::size_t channels) const;
 };
+
+/// Factor on the squared error that least squares expects of independent samples, for samples that
+/// are spread evenly over a function without noise: the error at an edge falls with n^(-3/2)
+/// instead of 1/n once there is more than a sample per pixel.
+[[nodiscard]] inline float evenness(std::size_t samples) {
+  constexpr std::size_t pixels = block_size * block_size;
+  return samples <= pixels ? 1
+                           : std::sqrt(static_cast<float>(pixels) / static_cast<float>(samples));
+}
 
 /// Expected squared error of a channel of a block, in squared steps, over those coefficients whose
 /// error may change the quantised value. A coefficient that is quantised to zero and stays there,

@@ -37,6 +37,11 @@ struct SynthesisSettings {
   std::size_t height = 0;    ///< pixels
   std::size_t channels = 3;  ///< values per sample, at least 1
 
+  /// The sampler returns Monte Carlo estimates: another value at each call for the same position.
+  /// Such noise is smoothed more, and only more samples make it smaller. Without it the error at
+  /// edges falls faster.
+  bool noisy = false;
+
   InverseListSettings list = {};
   PrioritySettings priority = {};
   /// Blocks sampled between two choices; 1 is the paper's strict order, 0 chooses 1/16 of all
@@ -152,8 +157,10 @@ class Synthesizer {
 
   /// The best image that the samples of completed waves allow: finished pixels
   /// (CoefficientMeaning::pixel_average), see PixelFinisher.
+  /// \param settings  at first FinishSettings{}, or FinishSettings::noisy() if the sampler is
   /// \throws std::invalid_argument when a setting is out of range.
-  [[nodiscard]] FrequencyImage finished_image(const FinishSettings& settings = {}) const;
+  [[nodiscard]] FrequencyImage finished_image(const FinishSettings& settings) const;
+  [[nodiscard]] FrequencyImage finished_image() const;
 
   [[nodiscard]] std::size_t channels() const { return settings_.channels; }
   [[nodiscard]] const SynthesisSettings& settings() const { return settings_; }
@@ -188,7 +195,9 @@ class Synthesizer {
   void rescale();
   float priority_of(std::uint32_t block) const;
   float quantized_error_of(std::uint32_t block) const;
-  float residual_variance(std::uint32_t block, std::size_t channel, float& freedom) const;
+  float freedom_of(std::uint32_t block) const;
+  void note_residuals(std::uint32_t block);
+  float pooled_residual(std::uint32_t block, std::size_t channel, float image) const;
   void revise_neighbours();
   template <class Visitor>
   void visit_beside(std::uint32_t block, Visitor&& visit) const;
@@ -213,7 +222,8 @@ class Synthesizer {
   std::vector<StateLine> states_;
   std::vector<std::uint32_t> counts_;
   std::vector<float> variations_;
-  std::vector<float> factors_;  // importance times the visible share of the block
+  std::vector<float> residuals_;  // variance of the residuals, [block][channel]
+  std::vector<float> factors_;    // importance times the visible share of the block
   std::vector<std::uint8_t> in_wave_;
 
   // The wave.
@@ -230,7 +240,9 @@ class Synthesizer {
   std::uint64_t corners_ = 0;
   std::size_t untouched_blocks_;
   std::vector<float> channel_variances_;
-  float variance_ = 0;  // mean over the channels
+  float variance_ = 0;                 // mean over the channels
+  std::vector<double> residual_sums_;  // of residuals_, per channel
+  float rounding_ = 0;                 // residuals below this are of float, not of the signal
 
   std::uint64_t sample_limit_ = std::numeric_limits<std::uint64_t>::max();
   float threshold_ = 0;  // squared
