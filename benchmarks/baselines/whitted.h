@@ -18,10 +18,10 @@ struct WhittedSettings {
 ///
 /// Whitted divides down to a threshold. Here it is lowered until the samples are spent: the square
 /// that counts most, by the contrast of its corners (largest difference of any component) times its
-/// area, is divided first, and among equals the largest. The squares to begin with are the smallest of
-/// 1/16, ..., 1/2, 1, 2, 4, ... pixels that base_share pays for. The radiance in a square that is not
-/// divided is the bilinear interpolation of its corners, integrated exactly over each pixel, which
-/// for a part of a pixel is Whitted's mean of the four corners, weighted by area.
+/// area, is divided first, and among equals the largest. The squares to begin with are the smallest
+/// of 1/16, ..., 1/2, 1, 2, 4, ... pixels that base_share pays for. The radiance in a square that
+/// is not divided is the bilinear interpolation of its corners, integrated exactly over each pixel,
+/// which for a part of a pixel is Whitted's mean of the four corners, weighted by area.
 ///
 /// Up to 4 samples may be left, because a division takes up to 5. Fewer than 4 samples in all are
 /// averaged.
