@@ -14,7 +14,9 @@ struct DippeWoldSettings {
   /// Widths to choose from, relative to the filter's own, growing, at least one.
   std::vector<double> widths = {0.75, 1.5, 3};
   /// Signal to noise ratio (of powers) below which a wider filter is taken. >= 0; 0 never widens.
-  double threshold = 0.25;
+  /// The noise of jittered samples at an edge is overestimated, so that 1 would blur edges; pure
+  /// noise asks for 2.
+  double threshold = 0.5;
 };
 
 /// Dippe and Wold, Antialiasing Through Stochastic Sampling, 1985: jittered samples and a filter

@@ -24,7 +24,8 @@ void noise(double, double, std::uint64_t id, std::span<float, 3> rgb) {
 }
 
 TEST(DippeWold, NoiseWidensTheFilterAndSignalDoesNot) {
-  const DippeWoldSettings settings{.widths = {1, 2, 4}, .threshold = 1};
+  // The narrowest box is the pixel, in which the signal below does not vary.
+  const DippeWoldSettings settings{.filter = PixelFilter::box, .widths = {1, 2, 4}, .threshold = 1};
   const auto mean_width = [&](const Radiance& radiance) {
     const std::vector<float> widths =
         dippe_wold_widths(jittered(radiance, job_at(48, 48, 4)), 48, 48, settings);
@@ -54,8 +55,11 @@ TEST(DippeWold, AVastThresholdAlwaysTakesTheWidest) {
 TEST(DippeWold, ReducesNoise) {
   const std::vector<double> expected(48 * 48, 0.5);
   const Job job = job_at(48, 48, 4);
-  EXPECT_LT(rms_error(dippe_wold(noise, job), expected),
-            0.7 * rms_error(supersampling(noise, job), expected));
+  const double narrow = rms_error(dippe_wold(noise, job, {.threshold = 0}), expected);
+  const double tolerant = rms_error(dippe_wold(noise, job, {.threshold = 2}), expected);
+  // In pure noise the difference of two averages has at most the sum of their variances, so that
+  // this threshold is mostly not reached.
+  EXPECT_LT(tolerant, 0.6 * narrow);
 }
 
 TEST(DippeWold, NeedsAWidth) {
@@ -65,9 +69,9 @@ TEST(DippeWold, NeedsAWidth) {
 TEST(AlphaTrimmed, RemovesASpike) {
   Rendering spiky = grey_picture(9, 9, 0.25f);
   spiky.pixels[(4 * 9 + 4) * 3] = 100;
-  // The spike enters the seven values of its own pixel at most three times: far fewer than are
-  // trimmed here.
-  const Rendering filtered = alpha_trimmed(spiky, {.alpha = 0.45, .distance = 1});
+  // Corners that are a whole pixel away along an axis see nothing of the pixel
+  // itself, so that the spike is one of seven values, and the largest.
+  const Rendering filtered = alpha_trimmed(spiky, {.alpha = 0.2, .distance = 1.2});
   EXPECT_NEAR(filtered.pixels[(4 * 9 + 4) * 3], 0.25, 1e-6);
   EXPECT_LT(energy(filtered), 0.5 * energy(spiky));
 }
