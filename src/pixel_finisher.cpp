@@ -99,38 +99,49 @@ double PixelFinisher::measured_doubt(std::span<const float, max_terms> coefficie
 }
 
 /// Holds pixels within what the samples around have shown.
-void PixelFinisher::bound(std::span<const float, max_terms> pixel_sums,
+void PixelFinisher::bound(std::span<const float, max_terms> pixel_sums, float residual,
                           std::span<float, max_terms> pixels) const {
   constexpr int side = block_size;
   constexpr int enough = 4;
+  std::array<float, max_terms> means;
+  for (std::size_t pixel = 0; pixel < max_terms; ++pixel) {
+    means[pixel] = pixel_sums[pixel] * inverse_weights_.values[pixel];
+  }
   struct Range {
-    float low = std::numeric_limits<float>::infinity();
-    float high = -std::numeric_limits<float>::infinity();
+    float low = 0, high = 0;
     int known = 0;
   };
+  // The slack on each side is in proportion to the distance from the median, so that a few bright
+  // pixels beside many dark ones widen the range of the bright only.
   const auto range_of = [&](int left, int top, int right, int bottom) {
+    std::array<float, max_terms> values;
     Range range;
     for (int y = std::max(top, 0); y <= std::min(bottom, side - 1); ++y) {
       for (int x = std::max(left, 0); x <= std::min(right, side - 1); ++x) {
         const auto pixel = static_cast<std::size_t>(y * side + x);
-        if (weights_[pixel] == 0) continue;
-        const float mean = pixel_sums[pixel] * inverse_weights_.values[pixel];
-        range.low = std::min(range.low, mean);
-        range.high = std::max(range.high, mean);
-        ++range.known;
+        if (weights_[pixel] > 0) values[static_cast<std::size_t>(range.known++)] = means[pixel];
       }
     }
+    if (range.known == 0) return range;
+    const auto end = values.begin() + range.known;
+    const auto middle = values.begin() + range.known / 2;
+    std::nth_element(values.begin(), middle, end);
+    const float low = *std::min_element(values.begin(), middle + 1);
+    const float high = *std::max_element(middle, end);
+    range.low = low - static_cast<float>(settings_.slack) * (*middle - low);
+    range.high = high + static_cast<float>(settings_.slack) * (high - *middle);
     return range;
   };
   const Range whole = range_of(0, 0, side - 1, side - 1);
-  if (whole.known == 0) return;
+  // A fit that leaves nothing over does not ring; it knows peaks that lie between samples.
+  const float visible = 0.01f * (whole.high - whole.low);
+  if (whole.known == 0 || residual <= visible * visible) return;
   for (int y = 0; y < side; ++y) {
     for (int x = 0; x < side; ++x) {
-      Range range = range_of(x - 1, y - 1, x + 1, y + 1);
-      if (range.known < enough) range = whole;
-      const float slack = static_cast<float>(settings_.slack) * (range.high - range.low);
+      const Range around = range_of(x - 1, y - 1, x + 1, y + 1);
+      const Range& range = around.known < enough ? whole : around;
       float& pixel = pixels[static_cast<std::size_t>(y * side + x)];
-      pixel = std::clamp(pixel, range.low - slack, range.high + slack);
+      pixel = std::clamp(pixel, range.low, range.high);
     }
   }
 }
@@ -160,7 +171,7 @@ void PixelFinisher::finish(std::span<const float, max_terms> coefficients,
     if (weights_[pixel] == 0) continue;
     pixels[pixel] += means.values[pixel] * weights_[pixel] / (weights_[pixel] + doubt);
   }
-  if (std::isfinite(settings_.slack)) bound(pixel_sums, pixels);
+  if (std::isfinite(settings_.slack)) bound(pixel_sums, residual, pixels);
   forward_dct(pixels, out);
 }
 

@@ -73,12 +73,12 @@ Synthesizer::Synthesizer(SynthesisSettings settings)
       queue_(grid_.blocks_x * grid_.blocks_y),
       state_stride_(refiner_.state_size()) {
   const std::size_t blocks = queue_.size();
-  wave_size_ = settings_.wave != 0 ? settings_.wave : std::max<std::size_t>(1, blocks / 16);
+  wave_size_ = settings_.wave != 0 ? settings_.wave : std::max<std::size_t>(1, blocks / 32);
   states_.resize(blocks * state_stride_ * sizeof(float) / sizeof(StateLine));
   counts_.resize(blocks);
   variations_.resize(blocks);
-  residuals_.resize(blocks * settings_.channels);
-  residual_sums_.resize(settings_.channels);
+  residuals_.resize(blocks);
+  told_.resize(blocks);
   in_wave_.resize(blocks);
   factors_.resize(blocks, 1);
   sums_.resize(settings_.channels);
@@ -307,7 +307,6 @@ void Synthesizer::finish_wave() {
   ++stats_.waves;
   slots_.clear();
   next_slot_ = delivered_slots_ = 0;
-  for (const std::uint32_t block : touched_) note_residuals(block);
   if (untouched_blocks_ == 0 && variance_ == 0) {
     rescale();
   } else {
@@ -359,6 +358,7 @@ void Synthesizer::absorb(std::uint32_t block, const float* values) {
   variations_[block] = metric_.variation(variations_[block], change);
   ++count;
   ++stats_.absorbed;
+  note_residual(block);
   if (in_wave_[block] == 0) {
     in_wave_[block] = 1;
     touched_.push_back(block);
@@ -409,19 +409,25 @@ float Synthesizer::priority_of(std::uint32_t block) const {
   if (settings_.priority.measure == PriorityMeasure::change) {
     return factors_[block] * metric_.priority(variations_[block], count, variance_);
   }
-  float residual = rounding_;
-  for (std::size_t c = 0; c < settings_.channels; ++c) {
-    residual += refiner_.weights()[c] *
-                pooled_residual(block, c, static_cast<float>(settings_.priority.image));
-  }
+  const float residual = rounding_ + pooled(
+                                         block, [&](std::uint32_t b) { return residuals_[b]; },
+                                         static_cast<float>(settings_.priority.image));
   const std::size_t terms = refiner_.list().terms(count - 1);
   return factors_[block] * metric_.expected_change(residual, count, terms, variance_);
 }
 
+/// Tells the blocks beside those of the wave.
 void Synthesizer::revise_neighbours() {
   const bool target = settings_.quantization.has_value();
   if (!target && settings_.priority.measure == PriorityMeasure::change) return;
   for (const std::uint32_t block : touched_) {
+    // A block that gets samples hears of its neighbours then. Those that wait for long have to be
+    // told when there is more to be found around them than they know.
+    const float residual = residuals_[block];
+    const bool more = residual > 1.25f * told_[block];
+    const bool less = residual < 0.5f * told_[block];
+    if (more || less) told_[block] = residual;
+    if (!more && wave_size_ > 1) continue;
     visit_beside(block, [&](std::uint32_t other) {
       // Of the blocks that meet a target only whether they still do is of interest.
       const bool revise = !target || queue_.priority(other) == 0;
@@ -437,25 +443,29 @@ float Synthesizer::freedom_of(std::uint32_t block) const {
   return static_cast<float>(count > terms ? count - terms : 1);
 }
 
-void Synthesizer::note_residuals(std::uint32_t block) {
-  const float freedom = freedom_of(block);
-  for (std::size_t c = 0; c < settings_.channels; ++c) {
-    float& residual = residuals_[block * settings_.channels + c];
-    const float now = refiner_.squared_residuals(state_of(block), c) / freedom;
-    residual_sums_[c] += double{now} - double{residual};
-    residual = now;
-  }
+float Synthesizer::residual_variance(std::uint32_t block, std::size_t channel) const {
+  return refiner_.squared_residuals(state_of(block), channel) / freedom_of(block);
 }
 
-/// Variance of the residuals of a channel of a block, pooled with that of the blocks beside it and,
-/// as `image` samples, with that of all blocks.
-float Synthesizer::pooled_residual(std::uint32_t block, std::size_t channel, float image) const {
-  const std::size_t channels = settings_.channels;
+void Synthesizer::note_residual(std::uint32_t block) {
+  float squares = 0;
+  for (std::size_t c = 0; c < settings_.channels; ++c) {
+    squares += refiner_.weights()[c] * refiner_.squared_residuals(state_of(block), c);
+  }
+  const float residual = squares / freedom_of(block);
+  residual_sum_ += double{residual} - double{residuals_[block]};
+  residuals_[block] = residual;
+}
+
+/// residual(block), a variance, pooled with that of the blocks beside it and, as `image` samples,
+/// with that of all blocks.
+template <class Residual>
+float Synthesizer::pooled(std::uint32_t block, Residual&& residual, float image) const {
   float weight = freedom_of(block);
-  float sum = weight * residuals_[block * channels + channel];
+  float sum = weight * residual(block);
   float beside = 0, blocks = 0;
   visit_beside(block, [&](std::uint32_t other) {
-    beside += residuals_[other * channels + channel];
+    beside += residual(other);
     ++blocks;
   });
   if (blocks > 0) {
@@ -463,7 +473,7 @@ float Synthesizer::pooled_residual(std::uint32_t block, std::size_t channel, flo
     sum += neighbours * beside / blocks;
     weight += neighbours;
   }
-  sum += image * static_cast<float>(residual_sums_[channel] / static_cast<double>(queue_.size()));
+  sum += image * static_cast<float>(residual_sum_ / static_cast<double>(queue_.size()));
   return sum / (weight + image);
 }
 
@@ -472,7 +482,8 @@ float Synthesizer::quantized_error_of(std::uint32_t block) const {
   float error = 0;
   std::array<float, max_terms> coefficients;
   for (std::size_t c = 0; c < settings_.channels; ++c) {
-    float residual = pooled_residual(block, c, 0);
+    float residual = pooled(
+        block, [&](std::uint32_t b) { return residual_variance(b, c); }, 0);
     if (!settings_.noisy) residual *= evenness(count);
     residual += metric_.uncertainty(count, channel_variances_[c]);
     refiner_.coefficients(state_of(block), count, c, coefficients);
@@ -519,7 +530,7 @@ FrequencyImage Synthesizer::finished_image(const FinishSettings& settings) const
     for (std::size_t c = 0; c < settings_.channels; ++c) {
       refiner_.coefficients(state_of(block), count, c, coefficients);
       finisher.finish(coefficients, refiner_.pixel_sums(state_of(block), c),
-                      residuals_[block * settings_.channels + c], image.coefficients(x, y, c));
+                      residual_variance(block, c), image.coefficients(x, y, c));
     }
   }
   return image;

@@ -112,6 +112,8 @@ std::array<double, max_terms> literal_pixels(const FittedBlock& block, std::size
     if (settings.residuals && weight > 0) pixels[pixel] += sum / (weight + settings.doubt);
   }
   if (!settings.residuals || std::isinf(settings.slack)) return pixels;
+  // The residuals of an edge are large enough for bounds, but for those of a few samples.
+  if (block.residual < 1e-4f) return pixels;
   const std::array<double, max_terms> unbounded = pixels;
   for (int pixel = 0; pixel < 64; ++pixel) {
     std::vector<double> around, all;
@@ -124,11 +126,13 @@ std::array<double, max_terms> literal_pixels(const FittedBlock& block, std::size
       if (near) around.push_back(mean);
     }
     const auto& used = around.size() >= 4 ? around : all;
-    const double low = *std::min_element(used.begin(), used.end());
-    const double high = *std::max_element(used.begin(), used.end());
-    const double slack = settings.slack * (high - low);
+    std::vector<double> sorted = used;
+    std::sort(sorted.begin(), sorted.end());
+    const double median = sorted[sorted.size() / 2];
+    const double low = sorted.front() - settings.slack * (median - sorted.front());
+    const double high = sorted.back() + settings.slack * (sorted.back() - median);
     pixels[static_cast<std::size_t>(pixel)] =
-        std::clamp(unbounded[static_cast<std::size_t>(pixel)], low - slack, high + slack);
+        std::clamp(unbounded[static_cast<std::size_t>(pixel)], low, high);
   }
   return pixels;
 }

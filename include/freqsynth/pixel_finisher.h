@@ -40,16 +40,16 @@ struct FinishSettings {
   /// Finite and >= 0; 1 is the estimate of James and Stein.
   double shrinkage = 2;
   /// A pixel stays within the range of the means of the samples in it and in its 8 neighbours of
-  /// the same block, widened by this share of the range on both sides; where fewer than 4 of them
-  /// have samples, in the range of the whole block. >= 0; infinite: no bounds.
-  double slack = 0.2;
+  /// the same block, widened on each side by this share of the distance between its end and the
+  /// median; where fewer than 4 of them have samples, in the range of the whole block. Only in
+  /// blocks whose residuals are over 1 percent of that range. >= 0; infinite: no bounds.
+  double slack = 0.4;
 
   /// For a sampler that returns Monte Carlo estimates.
   [[nodiscard]] static FinishSettings noisy() {
     FinishSettings settings;
-    settings.doubt = 4;
+    settings.doubt = 1;
     settings.measure_doubt = true;
-    settings.shrinkage = 4;
     return settings;
   }
 
@@ -84,7 +84,7 @@ class PixelFinisher {
   double measured_doubt(std::span<const float, max_terms> coefficients,
                         std::span<const float, max_terms> filtered, const Row& means,
                         float residual) const;
-  void bound(std::span<const float, max_terms> pixel_sums,
+  void bound(std::span<const float, max_terms> pixel_sums, float residual,
              std::span<float, max_terms> pixels) const;
 
   std::shared_ptr<const InverseList> list_;

@@ -44,7 +44,7 @@ struct SynthesisSettings {
 
   InverseListSettings list = {};
   PrioritySettings priority = {};
-  /// Blocks sampled between two choices; 1 is the paper's strict order, 0 chooses 1/16 of all
+  /// Blocks sampled between two choices; 1 is the paper's strict order, 0 chooses 1/32 of all
   /// blocks.
   std::size_t wave = 0;
   /// Most samples of a block, 1 .. SampleSequence::max_size.
@@ -196,8 +196,10 @@ class Synthesizer {
   float priority_of(std::uint32_t block) const;
   float quantized_error_of(std::uint32_t block) const;
   float freedom_of(std::uint32_t block) const;
-  void note_residuals(std::uint32_t block);
-  float pooled_residual(std::uint32_t block, std::size_t channel, float image) const;
+  float residual_variance(std::uint32_t block, std::size_t channel) const;
+  template <class Residual>
+  float pooled(std::uint32_t block, Residual&& residual, float image) const;
+  void note_residual(std::uint32_t block);
   void revise_neighbours();
   template <class Visitor>
   void visit_beside(std::uint32_t block, Visitor&& visit) const;
@@ -222,7 +224,8 @@ class Synthesizer {
   std::vector<StateLine> states_;
   std::vector<std::uint32_t> counts_;
   std::vector<float> variations_;
-  std::vector<float> residuals_;  // variance of the residuals, [block][channel]
+  std::vector<float> residuals_;  // weighted variance of the residuals
+  std::vector<float> told_;       // what the blocks beside know of it
   std::vector<float> factors_;    // importance times the visible share of the block
   std::vector<std::uint8_t> in_wave_;
 
@@ -240,9 +243,9 @@ class Synthesizer {
   std::uint64_t corners_ = 0;
   std::size_t untouched_blocks_;
   std::vector<float> channel_variances_;
-  float variance_ = 0;                 // mean over the channels
-  std::vector<double> residual_sums_;  // of residuals_, per channel
-  float rounding_ = 0;                 // residuals below this are of float, not of the signal
+  float variance_ = 0;       // mean over the channels
+  double residual_sum_ = 0;  // of residuals_
+  float rounding_ = 0;       // residuals below this are of float, not of the signal
 
   std::uint64_t sample_limit_ = std::numeric_limits<std::uint64_t>::max();
   float threshold_ = 0;  // squared
