@@ -44,9 +44,9 @@ class Orderings : public testing::TestWithParam<const char*> {
   }
 
   quality::Metrics measured(const char* method, double rate) {
-    const quality::Run run =
-        quality::run_method(quality::find_method(method), subject().radiance,
-                            {size, size, quality::samples_of(rate, size, size), 1});
+    const quality::Run run = quality::run_method(
+        quality::find_method(method), subject().radiance,
+        {size, size, quality::samples_of(rate, size, size), 1, subject().scene->noisy()});
     return quality::measure({size, size, run.pixels}, {size, size, subject().pixels}, run.samples);
   }
 };
