@@ -77,7 +77,7 @@ cmp one.pfm four.pfm || fail "the picture depends on the number of threads"
 ! cmp -s one.pfm seven.pfm || fail "the seed changes nothing"
 
 # The options that change the picture do.
-for option in "--wave 1" "--terms-every 3" "--cutoff 0.4" "--order 1" "--no-butterworth" \
+for option in "--wave 8" "--terms-every 3" "--cutoff 0.4" "--order 1" "--no-butterworth" \
     "--pixel-filter none" "--no-residuals" "--channels gray" "--average display" "--scale 2" "--zone-frequency 0.1" "--reference 4"; do
   # shellcheck disable=SC2086
   "$program" "${small[@]}" $option -o option.pfm

@@ -46,6 +46,41 @@ TEST(SynthesizerSettings, ConstantImageIsSampledEvenly) {
   }
 }
 
+// A pattern that repeats with the first lattices of a block looks flat there. Its neighbours, of
+// other patterns, say that it may not be.
+TEST(SynthesizerSettings, NeighboursKeepALuckyBlockInDoubt) {
+  const auto lines = [](double x, double y) {
+    const double phase = x - std::floor(x);
+    if (x >= 16 && x <= 24) return phase > 0.6 && phase < 0.9 ? 0.0 : 1.0;
+    return std::sin(2.1 * x) * std::cos(1.7 * y) > 0 ? 0.0 : 1.0;
+  };
+  const auto samples_of_the_lucky = [&](double neighbours) {
+    SynthesisSettings settings = settings_of(40, 40);
+    settings.priority.neighbours = neighbours;
+    settings.priority.image = 0;
+    Synthesizer engine(settings);
+    engine.run(lines, at_samples_per_pixel(4));
+    return engine.image().samples(2, 2);
+  };
+  // 25 samples are a lattice of 2 pixels, which sees nothing of the lines.
+  EXPECT_GT(samples_of_the_lucky(16), 50u);
+  EXPECT_LE(samples_of_the_lucky(0), 25u);
+}
+
+TEST(SynthesizerSettings, NoisySamplersGetPicturesFinishedForNoise) {
+  for (const bool noisy : {false, true}) {
+    SynthesisSettings settings = settings_of(32, 32);
+    settings.noisy = noisy;
+    Synthesizer engine(settings);
+    engine.run(picture, at_samples_per_pixel(2));
+    const auto coefficients = helpers::coefficients_of(engine.finished_image());
+    const auto plain = helpers::coefficients_of(engine.finished_image(FinishSettings{}));
+    const auto for_noise = helpers::coefficients_of(engine.finished_image(FinishSettings::noisy()));
+    EXPECT_EQ(coefficients == plain, !noisy);
+    EXPECT_EQ(coefficients == for_noise, noisy);
+  }
+}
+
 TEST(SynthesizerSettings, ImportanceZeroLeavesABlockAtItsFirstSample) {
   SynthesisSettings settings = settings_of(40, 40);
   settings.importance.assign(25, 1.0f);

@@ -11,14 +11,17 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 out=$root/out/quality
 settings=(--size 256x256 --seeds 3 --reference 1024)
 rates=1/16,1/8,1/4,1/2,1,2,4
-# The yardstick is measured further, to tell how many of its samples are as good.
-more_rates=8,16,32,64
+# freqsynth and the yardstick are measured further, to tell whether it stays better, and the yardstick
+# further still, to tell how many of its samples are as good.
+more_rates=8,16
+most_rates=32,64
 if [[ ${1:-} == --quick ]]; then
   shift
   out=$root/out/quality_quick
   settings=(--size 128x128 --seeds 1 --reference 256)
   rates=1/16,1/4,1,4
-  more_rates=16,64
+  more_rates=16
+  most_rates=64
 fi
 
 "$root/.ci/install_missing" cmake g++ ninja-build pkg-config libbenchmark-dev \
@@ -43,11 +46,14 @@ for scene in "${scenes[@]}"; do
   part=$(part_of "$scene")
   run=("$program" --scenes "$scene" "${settings[@]}" --cache "$out/references")
   "${run[@]}" --spp "$rates" --pictures "$out/pictures" --csv "$part.csv"
-  "${run[@]}" --spp "$more_rates" --methods jittered-box --csv "$part.more.csv"
+  "${run[@]}" --spp "$more_rates" --methods freqsynth,jittered-box --csv "$part.more.csv"
+  "${run[@]}" --spp "$most_rates" --methods jittered-box --csv "$part.most.csv"
 done
 # All parts that there are, in the order of the list, under one line of names.
 files=()
-for scene in "${all[@]}"; do files+=("$(part_of "$scene").csv" "$(part_of "$scene").more.csv"); done
+for scene in "${all[@]}"; do
+  for part in "" .more .most; do files+=("$(part_of "$scene")$part.csv"); done
+done
 for file in "$out"/parts/*.csv; do
   [[ " ${files[*]} " == *" $file "* ]] || files+=("$file")
 done

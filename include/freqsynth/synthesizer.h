@@ -109,6 +109,8 @@ struct KeepGoing {
   bool operator()(double) const { return true; }
 };
 
+struct BlockNeighbours;  // private
+
 /// Turns a radiance function into a frequency image. request(), deliver(), give_back(), image() and
 /// the getters may be called from any thread.
 class Synthesizer {
@@ -184,6 +186,7 @@ class Synthesizer {
   };
 
   // All of these run under the lock.
+  BlockNeighbours neighbours() const;
   std::optional<StopReason> prepare_wave();
   bool asked_by_neighbour(std::uint32_t block, std::uint32_t index) const;
   Request make_request(std::uint32_t slot) const;
@@ -201,10 +204,6 @@ class Synthesizer {
   float pooled(std::uint32_t block, Residual&& residual, float image) const;
   void note_residual(std::uint32_t block);
   void revise_neighbours();
-  template <class Visitor>
-  void visit_beside(std::uint32_t block, Visitor&& visit) const;
-  template <class Visitor>
-  void visit_neighbours(std::uint32_t block, std::uint32_t index, Visitor&& visit) const;
 
   float* state_of(std::size_t block) { return states_.data()->values + block * state_stride_; }
   const float* state_of(std::size_t block) const {
