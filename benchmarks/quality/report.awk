@@ -135,6 +135,20 @@ function headline(    i, k, s, r, v, n, count, won, m, ratio, logs, compared, do
     printf "  the jittered box needs %.3g times as many samples (median; bounds count as they are).\n",
       median(list, count[k])
   }
+  # The greatest error relative to the yardstick's, from 1/4 sample per pixel on.
+  worst = 0
+  for (i = 1; i <= scenes; ++i) {
+    for (j = 1; j <= rates; ++j) {
+      if (rate[j] < 0.25 || !known(scene[i], ours, rate[j]) || \
+          !known(scene[i], yardstick, rate[j])) continue
+      ratio = error(scene[i], ours, rate[j], 8) / error(scene[i], yardstick, rate[j], 8)
+      if (ratio > worst) { worst = ratio; worst_scene = scene[i]; worst_rate = rate[j] }
+    }
+  }
+  if (worst > 0) {
+    printf "* With the same number of samples, from 1/4 sample per pixel on, the RMSE is at most %.2f\n", worst
+    printf "  times that of the jittered box (%s at %s).\n", worst_scene, rate_name(worst_rate)
+  }
 }
 
 # How many times as great as the best other error ours is. Mean squares give the root of it, so

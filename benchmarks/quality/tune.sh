@@ -58,7 +58,7 @@ How to read the rows:
   does. A difference no greater than that between its rows says nothing.
 * \`weight\` acts on the priority by change, so that its rows are with that measure and relative to
   its default.
-* \`wave\` is the number of blocks sampled between two choices, one or a share of all; 1/16 is what
+* \`wave\` is the number of blocks sampled between two choices, one or a share of all; 1/32 is what
   0 stands for.
 * \`doubt\`, \`shrinkage\` and \`slack\` are measured on the scenes without noise. Noisy scenes
   (\`softshadow\` and \`glossy\` in the first half, \`dof\` alone in the second) have defaults of
