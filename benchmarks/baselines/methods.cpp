@@ -7,6 +7,9 @@
 #include "alpha_trimmed.h"
 #include "dippe_wold.h"
 #include "energy_preserving.h"
+#ifdef FREQSYNTH_BASELINES_OPENCV
+#include "opencv_fsr.h"
+#endif
 #include "painter_sloan.h"
 #include "supersampling.h"
 #include "two_level.h"
@@ -59,6 +62,11 @@ std::vector<Method> make_methods() {
        [=](const Radiance& radiance, const Job& job) {
          return energy_preserving(jittered_box(radiance, job));
        }},
+#ifdef FREQSYNTH_BASELINES_OPENCV
+      {"opencv-fsr", "below 1 sample per pixel: the other pixels filled in by OpenCV's FSR, fast",
+       "Seiler et al. 2015, Genser et al. 2018",
+       [](const Radiance& radiance, const Job& job) { return opencv_fsr(radiance, job); }},
+#endif
   };
 }
 
