@@ -13,6 +13,7 @@ namespace freqsynth {
 
 void Synthesizer::rescale() {
   double sum = 0;
+  rounding_ = 0;
   const double count = static_cast<double>(std::max<std::uint64_t>(corners_, 1));
   for (std::size_t c = 0; c < settings_.channels; ++c) {
     const double mean = sums_[c] / count;

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Measures the error of this library and of others, scene by scene. On Debian, installs what is
 # missing. Then benchmarks/quality/report tells it in docs/quality.md.
-#   benchmarks/quality/run.sh             all scenes: half an hour or more
+#   benchmarks/quality/run.sh             all scenes: ten minutes or more
 #   benchmarks/quality/run.sh SCENE...    these scenes; what is known of the others is kept
 #   benchmarks/quality/run.sh --quick [SCENE...]   small pictures, in out/quality_quick: a minute
 # Writes out/quality/results.csv, a line for each scene, method and rate, and out/quality/pictures.

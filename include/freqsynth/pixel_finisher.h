@@ -37,7 +37,7 @@ struct FinishSettings {
   /// samples; of a function without noise evenly spread samples tell more.
   bool measure_doubt = false;
   /// A coefficient F with an expected squared error of e counts max(0, 1 - shrinkage e / F^2).
-  /// Finite and >= 0; 1 is the estimate of James and Stein.
+  /// Finite and >= 0; 1 is the empirical Wiener filter.
   double shrinkage = 2;
   /// A pixel stays within the range of the means of the samples in it and in its 8 neighbours of
   /// the same block, widened on each side by this share of the distance between its end and the

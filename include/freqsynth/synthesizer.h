@@ -159,7 +159,7 @@ class Synthesizer {
 
   /// The best image that the samples of completed waves allow: finished pixels
   /// (CoefficientMeaning::pixel_average), see PixelFinisher.
-  /// \param settings  at first FinishSettings{}, or FinishSettings::noisy() if the sampler is
+  /// \param settings  without it FinishSettings{}, or FinishSettings::noisy() for a noisy sampler
   /// \throws std::invalid_argument when a setting is out of range.
   [[nodiscard]] FrequencyImage finished_image(const FinishSettings& settings) const;
   [[nodiscard]] FrequencyImage finished_image() const;
