@@ -9,6 +9,7 @@
 
 #include "freqsynth/frequency_image.h"
 #include "freqsynth/quantization.h"
+#include "image_helpers.h"
 #include "oracles.h"
 
 namespace freqsynth::test {
@@ -18,19 +19,9 @@ using oracle::Real;
 /// Coefficients that fall off, around the signal of a JPEG file: pixels stay in its range.
 inline FrequencyImage random_signal(std::size_t width, std::size_t height, std::size_t channels,
                                     CoefficientMeaning meaning) {
-  oracle::Random random(static_cast<unsigned>(31 * width + height));
-  FrequencyImage image(width, height, channels, meaning);
+  FrequencyImage image = helpers::random_image(width, height, channels, meaning, 120, 1);
   for (std::size_t y = 0; y < image.blocks_y(); ++y) {
-    for (std::size_t x = 0; x < image.blocks_x(); ++x) {
-      image.samples(x, y) = static_cast<std::uint32_t>(1 + random.below(200));
-      for (std::size_t c = 0; c < channels; ++c) {
-        const auto out = image.coefficients(x, y, c);
-        for (std::size_t i = 0; i < max_terms; ++i) {
-          out[i] = 120 * random.value() / (1 + static_cast<float>(i));
-        }
-        if (c == 0) out[0] += 1024;
-      }
-    }
+    for (std::size_t x = 0; x < image.blocks_x(); ++x) image.coefficients(x, y, 0)[0] += 1024;
   }
   return image;
 }

@@ -11,6 +11,7 @@
 
 #include "engine_helpers.h"
 #include "freqsynth/synthesizer.h"
+#include "image_helpers.h"
 #include "oracles.h"
 
 namespace freqsynth {
@@ -30,23 +31,10 @@ ReconstructionSettings with(PixelFilter filter,
   return settings;
 }
 
-/// Random coefficients that fall off, and random sample counts; values of a few units.
+/// Values of a few units.
 FrequencyImage random_image(std::size_t width, std::size_t height, std::size_t channels,
                             CoefficientMeaning meaning = CoefficientMeaning::point_function) {
-  oracle::Random random(static_cast<unsigned>(31 * width + height));
-  FrequencyImage image(width, height, channels, meaning);
-  for (std::size_t y = 0; y < image.blocks_y(); ++y) {
-    for (std::size_t x = 0; x < image.blocks_x(); ++x) {
-      image.samples(x, y) = static_cast<std::uint32_t>(1 + random.below(200));
-      for (std::size_t c = 0; c < channels; ++c) {
-        const auto out = image.coefficients(x, y, c);
-        for (std::size_t i = 0; i < max_terms; ++i) {
-          out[i] = 8 * random.value() / (1 + 0.2f * static_cast<float>(i));
-        }
-      }
-    }
-  }
-  return image;
+  return helpers::random_image(width, height, channels, meaning, 8, 0.2f);
 }
 
 /// Sum of the magnitudes of 64 amplitudes is below 20 for such images; a value takes part in about

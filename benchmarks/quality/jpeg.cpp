@@ -41,11 +41,8 @@ struct Subject {
   Pixels display;  // averages of display-encoded values, decoded
 };
 
-/// sRGB and its inverse for 0..1; linear values are what quality::Metrics takes.
-float decoded(float x) {
-  return x <= 0.04045f ? x / 12.92f : std::pow((x + 0.055f) / 1.055f, 2.4f);
-}
-float encoded(float x) { return freqsynth::DisplayEncoding{}.encode(x) / 255; }
+/// sRGB in 0..1.
+float encoded(float linear) { return freqsynth::DisplayEncoding{}.encode(linear) / 255; }
 
 /// The radiance as display-encoded values in 0..1.
 baselines::Radiance in_display(const baselines::Radiance& radiance) {
@@ -55,8 +52,9 @@ baselines::Radiance in_display(const baselines::Radiance& radiance) {
   };
 }
 
+/// Linear values, which is what quality::Metrics takes, of sRGB in 0..1.
 Pixels decoded(Pixels pixels) {
-  for (float& value : pixels) value = decoded(std::clamp(value, 0.0f, 1.0f));
+  for (float& value : pixels) value = freqsynth::DisplayEncoding{}.decode(255 * value);
   return pixels;
 }
 

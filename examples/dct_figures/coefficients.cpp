@@ -21,10 +21,8 @@ namespace {
 
 using freqsynth::block_size;
 
-/// The inverse of the transfer function of sRGB.
-float linear_of(float encoded) {
-  return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
-}
+/// The inverse of the transfer function of sRGB, for 0..1.
+float linear_of(float encoded) { return freqsynth::DisplayEncoding{}.decode(255 * encoded); }
 
 bool is_linear(const OIIO::ImageSpec& spec) {
   const std::string space = spec.get_string_attribute("oiio:ColorSpace");

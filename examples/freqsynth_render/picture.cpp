@@ -13,6 +13,8 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "freqsynth/display_encoding.h"
+
 namespace {
 
 /// A name beside `file` for the time of writing, with the same ending. Devices are written
@@ -65,16 +67,11 @@ void write_pfm(const std::string& name, const Picture& picture) {
   if (!stream) throw std::runtime_error("cannot be written");
 }
 
-/// The transfer function of sRGB (IEC 61966-2-1) and its inverse.
-float encoded(float linear) {
-  const float x = std::clamp(std::isnan(linear) ? 0.0f : linear, 0.0f, 1.0f);
-  return x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1 / 2.4f) - 0.055f;
-}
+/// Within 0..1, also what is not finite: a picture is shown all the same.
+float shown(float value) { return std::clamp(std::isnan(value) ? 0.0f : value, 0.0f, 1.0f); }
 
-float decoded(float encoded) {
-  const float x = std::clamp(std::isnan(encoded) ? 0.0f : encoded, 0.0f, 1.0f);
-  return x <= 0.04045f ? x / 12.92f : std::pow((x + 0.055f) / 1.055f, 2.4f);
-}
+float encoded(float linear) { return freqsynth::DisplayEncoding{}.encode(shown(linear)) / 255; }
+float decoded(float encoded) { return freqsynth::DisplayEncoding{}.decode(255 * shown(encoded)); }
 
 /// The values of a file of linear values, or of 0..1 for one of 8 bits.
 std::vector<float> values_for(const Picture& picture, bool linear) {

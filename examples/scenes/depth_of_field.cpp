@@ -29,7 +29,7 @@ SolidWorld make_world() {
 }  // namespace
 
 DepthOfField::DepthOfField(int width, int height, std::uint64_t seed)
-    : world_(make_world()), camera_(kEye, kTarget, kHalfField, width, height), seed_(seed) {}
+    : NoisyWorld(make_world(), Camera(kEye, kTarget, kHalfField, width, height), seed) {}
 
 void DepthOfField::radiance(double x, double y, std::uint64_t id, std::span<float, 3> rgb) const {
   // All rays of a pixel position meet in the plane that is in focus.

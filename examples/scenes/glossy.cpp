@@ -44,7 +44,7 @@ Vec3 random_about(const Vec3& axis, double exponent, Random& random) {
 }  // namespace
 
 Glossy::Glossy(int width, int height, std::uint64_t seed)
-    : world_(make_world()), camera_(kEye, kTarget, kHalfField, width, height), seed_(seed) {}
+    : NoisyWorld(make_world(), Camera(kEye, kTarget, kHalfField, width, height), seed) {}
 
 void Glossy::radiance(double x, double y, std::uint64_t id, std::span<float, 3> rgb) const {
   const Ray ray = camera_.ray(x, y);

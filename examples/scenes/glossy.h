@@ -2,27 +2,19 @@
 /// The `glossy` scene.
 #pragma once
 
-#include "camera.h"
-#include "scene.h"
-#include "solid_world.h"
+#include "noisy_world.h"
 
 namespace scenes {
 
 /// Balls and a box on a brushed floor that mirrors them, sharply where they touch it and blurred
 /// farther up; they mirror it in turn, a little. Noisy: each sample follows one random direction
 /// about that of the mirror.
-class Glossy final : public Scene {
+class Glossy final : public NoisyWorld {
  public:
   /// `width` and `height` in pixels, both > 0; any seed.
   Glossy(int width, int height, std::uint64_t seed);
 
   void radiance(double x, double y, std::uint64_t id, std::span<float, 3> rgb) const override;
-  [[nodiscard]] bool noisy() const override { return true; }
-
- private:
-  SolidWorld world_;
-  Camera camera_;
-  std::uint64_t seed_;
 };
 
 }  // namespace scenes

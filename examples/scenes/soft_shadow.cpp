@@ -31,7 +31,7 @@ SolidWorld make_world() {
 }  // namespace
 
 SoftShadow::SoftShadow(int width, int height, std::uint64_t seed)
-    : world_(make_world()), camera_(kEye, kTarget, kHalfField, width, height), seed_(seed) {}
+    : NoisyWorld(make_world(), Camera(kEye, kTarget, kHalfField, width, height), seed) {}
 
 void SoftShadow::radiance(double x, double y, std::uint64_t id, std::span<float, 3> rgb) const {
   const auto surface = world_.find(camera_.ray(x, y));

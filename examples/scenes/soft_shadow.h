@@ -2,26 +2,18 @@
 /// The `softshadow` scene.
 #pragma once
 
-#include "camera.h"
-#include "scene.h"
-#include "solid_world.h"
+#include "noisy_world.h"
 
 namespace scenes {
 
 /// A ball, a box and a pole under a square lamp, whose shadows are sharp where they begin and soft
 /// far from what casts them. Noisy: each sample asks one random point of the lamp for its light.
-class SoftShadow final : public Scene {
+class SoftShadow final : public NoisyWorld {
  public:
   /// `width` and `height` in pixels, both > 0; any seed.
   SoftShadow(int width, int height, std::uint64_t seed);
 
   void radiance(double x, double y, std::uint64_t id, std::span<float, 3> rgb) const override;
-  [[nodiscard]] bool noisy() const override { return true; }
-
- private:
-  SolidWorld world_;
-  Camera camera_;
-  std::uint64_t seed_;
 };
 
 }  // namespace scenes

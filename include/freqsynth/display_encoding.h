@@ -34,6 +34,10 @@ struct DisplayEncoding {
   /// fault is counted and not hidden.
   [[nodiscard]] float encode(float linear) const;
 
+  /// The inverse of encode() for values in 0..255; others are clamped. Not a number for what is
+  /// none.
+  [[nodiscard]] float decode(float encoded) const;
+
   /// Linear RGB to Y in 0..255 and Cb, Cr in -127.5..127.5: BT.601 over the full range, as JFIF has
   /// it.
   [[nodiscard]] std::array<float, 3> encode(const std::array<float, 3>& rgb) const;
@@ -81,6 +85,12 @@ inline float DisplayEncoding::encode(float linear) const {
   const float x = std::fmin(std::fmax(linear * exposure, 0.0f), 1.0f);
   const float encoded = x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1 / 2.4f) - 0.055f;
   return 255 * encoded;
+}
+
+inline float DisplayEncoding::decode(float encoded) const {
+  if (std::isnan(encoded)) return encoded;
+  const float x = std::fmin(std::fmax(encoded / 255, 0.0f), 1.0f);
+  return (x <= 0.04045f ? x / 12.92f : std::pow((x + 0.055f) / 1.055f, 2.4f)) / exposure;
 }
 
 inline std::array<float, 3> DisplayEncoding::encode(const std::array<float, 3>& rgb) const {

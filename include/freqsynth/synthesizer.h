@@ -69,8 +69,9 @@ struct StopRule {
   double samples_per_pixel = std::numeric_limits<double>::infinity();
   /// Samples in total.
   std::uint64_t samples = std::numeric_limits<std::uint64_t>::max();
-  /// The aliasing threshold of section 4.4 in the signal's unit, >= 0: no block changes by more, as
-  /// root mean square over its pixels and weighted over its last samples. Not an error bound.
+  /// The aliasing threshold of section 4.4 in the signal's unit, >= 0: no block changes by more
+  /// with its next sample, as root mean square over its pixels and by the estimate of
+  /// PrioritySettings::measure. Not an error bound.
   double aliasing_threshold = 0;
 };
 
