@@ -12,7 +12,7 @@
 #include <fftw3.h>
 #endif
 
-#include "freqsynth/dct.h"
+#include "freqsynth/basis/dct.h"
 
 namespace freqsynth::bench {
 namespace {

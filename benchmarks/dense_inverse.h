@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "freqsynth/normal_inverse.h"
+#include "freqsynth/basis/normal_inverse.h"
 
 namespace freqsynth::bench {
 

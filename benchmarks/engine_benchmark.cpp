@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "fixtures.h"
-#include "freqsynth/reconstructor.h"
+#include "freqsynth/image/reconstructor.h"
 #include "freqsynth/synthesizer.h"
 
 namespace freqsynth::bench {

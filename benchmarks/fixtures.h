@@ -9,10 +9,10 @@
 #include <span>
 #include <vector>
 
-#include "freqsynth/dct.h"
-#include "freqsynth/inverse_list.h"
-#include "freqsynth/normal_inverse.h"
-#include "freqsynth/sample_sequence.h"
+#include "freqsynth/basis/dct.h"
+#include "freqsynth/basis/inverse_list.h"
+#include "freqsynth/basis/normal_inverse.h"
+#include "freqsynth/basis/sample_sequence.h"
 #include "freqsynth/sampler.h"
 
 namespace freqsynth::bench {

@@ -14,10 +14,10 @@
 #include <vector>
 
 #include "fixtures.h"
-#include "freqsynth/display_encoding.h"
-#include "freqsynth/jpeg.h"
-#include "freqsynth/quantization.h"
-#include "freqsynth/reconstructor.h"
+#include "freqsynth/image/reconstructor.h"
+#include "freqsynth/jpeg/display_encoding.h"
+#include "freqsynth/jpeg/jpeg.h"
+#include "freqsynth/jpeg/quantization.h"
 #include "freqsynth/synthesizer.h"
 #include "pixels_to_jpeg.h"
 

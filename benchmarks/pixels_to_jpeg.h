@@ -11,7 +11,7 @@
 
 #include <jpeglib.h>
 
-#include "freqsynth/quantization.h"
+#include "freqsynth/jpeg/quantization.h"
 
 namespace freqsynth::bench {
 

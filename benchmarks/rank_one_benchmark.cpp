@@ -17,10 +17,10 @@
 
 #include "dense_inverse.h"
 #include "fixtures.h"
-#include "freqsynth/dct.h"
-#include "freqsynth/inverse_list.h"
-#include "freqsynth/normal_inverse.h"
-#include "freqsynth/sample_sequence.h"
+#include "freqsynth/basis/dct.h"
+#include "freqsynth/basis/inverse_list.h"
+#include "freqsynth/basis/normal_inverse.h"
+#include "freqsynth/basis/sample_sequence.h"
 
 #ifdef FREQSYNTH_BENCH_LAPACK
 extern "C" {

@@ -16,8 +16,8 @@
 #endif
 
 #include "fixtures.h"
-#include "freqsynth/butterworth.h"
-#include "freqsynth/reconstructor.h"
+#include "freqsynth/image/butterworth.h"
+#include "freqsynth/image/reconstructor.h"
 #include "freqsynth/synthesizer.h"
 
 namespace freqsynth::bench {

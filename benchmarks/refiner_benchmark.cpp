@@ -20,7 +20,7 @@
 #endif
 
 #include "fixtures.h"
-#include "freqsynth/least_squares_refiner.h"
+#include "freqsynth/refine/least_squares_refiner.h"
 
 namespace freqsynth::bench {
 namespace {

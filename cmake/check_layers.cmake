@@ -1,5 +1,8 @@
-# Checks the includes of the headers below INCLUDE_DIR/freqsynth against the layer table.
-#   cmake -DINCLUDE_DIR=include [-DTABLE=layers.cmake] -P check_layers.cmake
+# Checks the includes of the headers below INCLUDE_DIR/freqsynth against the layer table, and with
+# -DREADME=README.md that its table of headers is the one made from the layer table; with -DFIX=ON
+# too, writes it there.
+#   cmake -DINCLUDE_DIR=include [-DTABLE=layers.cmake] [-DREADME=README.md [-DFIX=ON]]
+#         -P check_layers.cmake
 cmake_minimum_required(VERSION 3.25)
 
 if(NOT TABLE)
@@ -11,14 +14,22 @@ file(REAL_PATH "${INCLUDE_DIR}" INCLUDE_DIR)
 set(heavy iostream thread functional regex)
 set(faults "")
 
+# The definitions x.inl of a header x.h stand on its layer, and may include it.
+set(layer 0)
+set(rows "| header | what it does | paper |\n|---|---|---|\n")
 foreach(entry IN LISTS FREQSYNTH_LAYERS)
-  string(REGEX MATCH "^([0-9]+) (.+)$" matched "${entry}")
-  if(NOT matched)
+  if(NOT entry MATCHES "^([^|]+)[|]([^|]*)[|]([^|]*)$")
     message(FATAL_ERROR "${TABLE}: cannot read \"${entry}\"")
   endif()
-  set("layer_of_${CMAKE_MATCH_2}" ${CMAKE_MATCH_1})
-  if(NOT EXISTS "${INCLUDE_DIR}/freqsynth/${CMAKE_MATCH_2}")
-    string(APPEND faults "  ${CMAKE_MATCH_2}: in the layer table but not in the tree\n")
+  set(header "${CMAKE_MATCH_1}")
+  string(APPEND rows "| `${header}` | ${CMAKE_MATCH_2} | ${CMAKE_MATCH_3} |\n")
+  string(REGEX REPLACE "\\.h$" ".inl" definitions "${header}")
+  set("layer_of_${header}" ${layer})
+  math(EXPR half "${layer} + 1")
+  set("layer_of_${definitions}" ${half})
+  math(EXPR layer "${layer} + 2")
+  if(NOT EXISTS "${INCLUDE_DIR}/freqsynth/${header}")
+    string(APPEND faults "  ${header}: in the layer table but not in the tree\n")
   endif()
 endforeach()
 
@@ -32,6 +43,7 @@ foreach(header IN LISTS headers)
     continue()
   endif()
   set(layer ${layer_of_${header}})
+  string(REGEX REPLACE "\\.h$" ".inl" definitions "${header}")
 
   file(STRINGS "${INCLUDE_DIR}/freqsynth/${header}" lines REGEX "^[ \t]*#[ \t]*include")
   foreach(line IN LISTS lines)
@@ -46,15 +58,26 @@ foreach(header IN LISTS headers)
       set(name "${CMAKE_MATCH_1}")
       if(NOT DEFINED "layer_of_${name}")
         string(APPEND faults "  ${header}: includes ${name}, which is not in the layer table\n")
-      elseif(layer_of_${name} GREATER_EQUAL layer)
-        string(APPEND faults "  ${header} (layer ${layer}): may not include ${name} "
-                             "(layer ${layer_of_${name}})\n")
+      elseif(layer_of_${name} GREATER_EQUAL layer AND NOT name STREQUAL definitions)
+        string(APPEND faults "  ${header}: may not include ${name}, which is not above it\n")
       endif()
     else()
       string(APPEND faults "  ${header}: include as \"freqsynth/...\", not: ${line}\n")
     endif()
   endforeach()
 endforeach()
+
+if(README)
+  file(READ "${README}" readme)
+  string(FIND "${readme}" "${rows}" place)
+  if(place EQUAL -1 AND FIX)
+    string(REGEX REPLACE "[|] header [|][^\n]*\n([|][^\n]*\n)+" "${rows}" readme "${readme}")
+    file(WRITE "${README}" "${readme}")
+  elseif(place EQUAL -1)
+    string(APPEND faults "  ${README}: its table of headers is not the layer table; repair with\n"
+      "    cmake -DINCLUDE_DIR=include -DREADME=README.md -DFIX=ON -P cmake/check_layers.cmake\n")
+  endif()
+endif()
 
 if(faults)
   message(FATAL_ERROR "Faults of layering:\n${faults}")

@@ -18,7 +18,7 @@
 
 #include "baselines/methods.h"
 #include "freqsynth/freqsynth.h"
-#include "freqsynth/jpeg.h"
+#include "freqsynth/jpeg/jpeg.h"
 #include "pixels_to_jpeg.h"
 #include "quality/metrics.h"
 #include "quality/reference.h"

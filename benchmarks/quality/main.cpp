@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "freqsynth/executor.h"
+#include "freqsynth/engine/executor.h"
 #include "freqsynth_render/option_values.h"
 #include "freqsynth_render/picture.h"
 #include "freqsynth_render/progress_bar.h"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "baselines/rendering.h"
-#include "freqsynth/executor.h"
+#include "freqsynth/engine/executor.h"
 
 namespace quality {
 

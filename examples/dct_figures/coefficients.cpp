@@ -10,11 +10,11 @@
 #include <stdexcept>
 #include <utility>
 
-#include "freqsynth/dct.h"
-#include "freqsynth/display_encoding.h"
-#include "freqsynth/reconstructor.h"
+#include "freqsynth/basis/dct.h"
+#include "freqsynth/image/reconstructor.h"
+#include "freqsynth/jpeg/display_encoding.h"
 #ifdef FREQSYNTH_HAS_JPEG
-#include "freqsynth/jpeg.h"
+#include "freqsynth/jpeg/jpeg.h"
 #endif
 
 namespace {

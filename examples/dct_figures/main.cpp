@@ -17,8 +17,8 @@
 #include <vector>
 
 #include "coefficients.h"
-#include "freqsynth/dct.h"
-#include "freqsynth/quantization.h"
+#include "freqsynth/basis/dct.h"
+#include "freqsynth/jpeg/quantization.h"
 #include "mountain.h"
 
 namespace {

@@ -3,9 +3,9 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include "freqsynth/display_encoding.h"
+#include "freqsynth/jpeg/display_encoding.h"
 #ifdef FREQSYNTH_HAS_JPEG
-#include "freqsynth/jpeg.h"
+#include "freqsynth/jpeg/jpeg.h"
 #endif
 
 freqsynth::QuantizationSettings quantization_of(const Options& options) {

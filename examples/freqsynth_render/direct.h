@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "freqsynth/frequency_image.h"
+#include "freqsynth/image/frequency_image.h"
 #include "options.h"
 
 /// The tables and the chroma resolution of the JPEG file.

@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
-#include "freqsynth/butterworth.h"
-#include "freqsynth/quantization.h"
-#include "freqsynth/reconstructor.h"
+#include "freqsynth/image/butterworth.h"
+#include "freqsynth/image/reconstructor.h"
+#include "freqsynth/jpeg/quantization.h"
 #include "option_values.h"
 
 /// In what the values of a pixel are averaged.

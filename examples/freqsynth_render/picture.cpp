@@ -13,7 +13,7 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "freqsynth/display_encoding.h"
+#include "freqsynth/jpeg/display_encoding.h"
 
 namespace {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "freqsynth/quantization.h"
+#include "freqsynth/jpeg/quantization.h"
 
 /// Pixels, row by row, channels interleaved.
 struct Picture {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "freqsynth/display_encoding.h"
+#include "freqsynth/jpeg/display_encoding.h"
 #include "sampling.h"
 #include "scenes/random.h"
 

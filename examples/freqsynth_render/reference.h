@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <functional>
 
-#include "freqsynth/executor.h"
+#include "freqsynth/engine/executor.h"
 #include "options.h"
 #include "picture.h"
 #include "scenes/scene.h"

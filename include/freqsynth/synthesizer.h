@@ -18,16 +18,16 @@
 #include <span>
 #include <vector>
 
-#include "freqsynth/block_queue.h"
-#include "freqsynth/config.h"
-#include "freqsynth/edge_cache.h"
-#include "freqsynth/executor.h"
-#include "freqsynth/frequency_image.h"
-#include "freqsynth/inverse_list.h"
-#include "freqsynth/least_squares_refiner.h"
-#include "freqsynth/pixel_finisher.h"
-#include "freqsynth/priority.h"
-#include "freqsynth/quantization_target.h"
+#include "freqsynth/basis/config.h"
+#include "freqsynth/basis/inverse_list.h"
+#include "freqsynth/engine/block_queue.h"
+#include "freqsynth/engine/edge_cache.h"
+#include "freqsynth/engine/executor.h"
+#include "freqsynth/engine/priority.h"
+#include "freqsynth/image/frequency_image.h"
+#include "freqsynth/image/pixel_finisher.h"
+#include "freqsynth/jpeg/quantization_target.h"
+#include "freqsynth/refine/least_squares_refiner.h"
 #include "freqsynth/sampler.h"
 
 namespace freqsynth {

@@ -2,7 +2,7 @@
 # Uses freqsynth_quality as a newcomer does, and as a careless one does.
 #   freqsynth_quality_test.sh PROGRAM FOLDER
 set -euo pipefail
-source "$(dirname "${BASH_SOURCE[0]}")/../expect_failure.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/../programs/expect_failure.sh"
 program=$(realpath "$1")
 folder=$2
 rm -rf "$folder"

@@ -2,7 +2,7 @@
 # The tables of the report for results whose answer is known.
 #   report_test.sh REPORT.AWK FOLDER
 set -euo pipefail
-source "$(dirname "${BASH_SOURCE[0]}")/../expect_failure.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/../programs/expect_failure.sh"
 report=$(realpath "$1")
 folder=$2
 rm -rf "$folder"

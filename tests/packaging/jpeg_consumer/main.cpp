@@ -1,7 +1,7 @@
 #include <cstdio>
 
 #include "freqsynth/freqsynth.h"
-#include "freqsynth/jpeg.h"
+#include "freqsynth/jpeg/jpeg.h"
 
 // Prints the version, and only that, when the component works.
 int main() {

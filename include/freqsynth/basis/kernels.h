@@ -1,0 +1,80 @@
+/// \file
+/// The hot kernels, compiled once per instruction set and chosen when the program starts. Every
+/// version adds in the same order and none fuses multiply and add, so all give the same bits.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "freqsynth/basis/config.h"
+
+namespace freqsynth::detail {
+
+/// Shared data to add one term to a block's state (eq. 37), rounded to float for the hot path.
+struct alignas(64) BorderRow {
+  float b[max_terms] = {};     ///< B of eq. 36, zero beyond the terms in the fit
+  float step[max_terms] = {};  ///< amplitudes per unit of the new one: -J^-1 B, 1
+  float inverse_delta = 0;     ///< 1 / Delta of eq. 37
+  float change = 0;            ///< mean squared pixel change caused by `step`
+  float cross = 0;             ///< mean product of the pixel changes caused by `gain` and by `step`
+  /// Delta of eq. 37: what the new term's square takes off the squared residuals.
+  float delta = 0;
+};
+
+/// Shared data to absorb the sample of one sequence index, rounded to float for the hot path.
+struct alignas(64) SampleRow {
+  float fit[max_terms] = {};          ///< term values at the position (eq. 28), zero beyond the fit
+  float gain[max_terms] = {};         ///< k = J^-1 A, zero beyond the fit
+  float rest[max_terms] = {};         ///< term values beyond the fit, zero within
+  const BorderRow* border = nullptr;  ///< not null when a term is added after this sample
+  std::uint32_t terms = 0;            ///< terms in the fit while the sample is absorbed
+  float change = 0;                   ///< mean squared pixel change caused by `gain`
+  float residual = 0;                 ///< 1 - A . k: share of the innovation that remains
+  float pixel_weight = 0;             ///< share of the sample that each of its pixels gets
+  std::uint8_t pixel_count = 0;       ///< pixels of the block that the position touches: 1, 2 or 4
+  std::uint8_t pixels[4] = {};        ///< those pixels, row by row
+};
+
+/// Absorbs one sample into the states of all channels of a block.
+///
+/// A state is 64 floats, aligned to 32 bytes: the amplitudes X of the terms in the fit and, beyond
+/// them, the right-hand sides Y (eq. 23) of the terms that are not yet in it.
+/// \param states    channels x 64 floats
+/// \param sums      channels x 64 floats: for each pixel the weighted sum of its samples
+/// \param residuals per channel: the sum of squared residuals of the fit, kept up to date
+/// \param values    one finite value per channel; null to absorb the block's own prediction instead
+/// \param weights   per channel: its weight in the result
+/// \return the weighted sum over channels of the mean squared change of the block's pixels
+float absorb_sample(const SampleRow& row, float* states, float* sums, float* residuals,
+                    const float* values, const float* weights, std::size_t channels);
+
+/// Powell's rank-one update, eqs. 29 and 33, of row-major matrices with a row stride of 64 and rows
+/// aligned to 32 bytes. The leading terms x terms part of `inverse` is updated, and all 64 columns
+/// of the first 64 rows of `normal` when `normal_terms` is 64 (or the leading part of that size).
+/// Entries of `inverse` beyond `terms` must be zero. `a` holds normal_terms values.
+void rank_one_update(double* inverse, double* normal, const double* a, std::size_t terms,
+                     std::size_t normal_terms);
+
+/// M += scale x x^T for the leading terms x terms part of a row-major matrix with a row stride of
+/// 64, rows aligned to 32 bytes. x is aligned and padded with zeros to a multiple of 4 values.
+void add_outer_product(double* matrix, const double* x, double scale, std::size_t terms);
+
+/// out = M x for the leading terms x terms part of a row-major matrix with a row stride of 64, rows
+/// aligned to 32 bytes, entries beyond `terms` zero.
+void multiply(const double* matrix, const double* x, std::size_t terms, double* out);
+
+/// out(j) = (sums(j) - row j of `matrix` . amplitudes) * shares(j) for 64 rows of 64 floats.
+/// All arrays are aligned to 32 bytes.
+void residual_means(const float* matrix, const float* amplitudes, const float* sums,
+                    const float* shares, float* out);
+
+/// Separable evaluation of a block: pixels(r, c) = sum_v wy(r, v) sum_u amplitudes(v, u) wx(u, c).
+/// \param amplitudes 8 x 8, row-major (v, u), aligned to 32 bytes
+/// \param wx    8 rows (u) of `wx_stride` floats, aligned to 32 bytes; columns is a multiple of 8
+/// \param wy    `rows` rows of 8 floats (v)
+/// \param out   rows x columns floats with a row stride of `out_stride`, aligned to 32 bytes
+void evaluate_separable(const float* amplitudes, const float* wx, std::size_t wx_stride,
+                        std::size_t columns, const float* wy, std::size_t rows, float* out,
+                        std::size_t out_stride);
+
+}  // namespace freqsynth::detail

@@ -1,0 +1,71 @@
+/// \file
+/// The quad-tree sample sequence that all blocks share (paper, section 4.3.1).
+///
+/// Four corners, then level by level of a quad-tree over the block: the centres of all nodes, then
+/// of every node one of the middles of its top and right border (chosen at random), then the other
+/// one. A position on the block's own border is followed at once by its partner on the opposite
+/// border, so that level k is complete, a regular lattice of (2^k + 1)^2 points, after as many
+/// samples.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "freqsynth/basis/config.h"
+
+namespace freqsynth {
+
+/// Where on the block a position lies. Positions on a border belong to every block they touch.
+enum class BlockSide : std::uint8_t { interior, corner, left, right, top, bottom };
+
+/// One position of the sequence.
+struct SequencePosition {
+  double s = 0;  ///< horizontal place in the unit block, 0 = left border, 1 = right border
+  double t = 0;  ///< vertical place in the unit block, 0 = top border, 1 = bottom border
+  BlockSide side = BlockSide::interior;
+  /// How many earlier positions lie on the same side. Partners on opposite sides have the same
+  /// rank, so that "the k-th point of an edge" means the same to both blocks. For corners: 0..3 in
+  /// the order (0,0) (1,1) (1,0) (0,1).
+  std::uint32_t rank = 0;
+  /// Index of the same point as seen from the block across this border. Positions in the interior
+  /// and the corners (which have three) are their own partner; see corner_at().
+  std::uint32_t partner = 0;
+  /// Distance to the nearest earlier positions of the sequence, in units of the block's edge.
+  float spacing = 1;
+};
+
+/// The sequence itself: the same for the same seed, grown on demand. Not thread-safe while growing.
+class SampleSequence {
+ public:
+  explicit SampleSequence(std::uint64_t seed = 0) : seed_(seed) {}
+
+  /// Position `index`; grows the sequence as far as needed (by whole levels, amortised O(1)). The
+  /// reference is valid until the sequence grows again.
+  /// \throws std::invalid_argument when index >= max_size.
+  const SequencePosition& operator[](std::size_t index);
+
+  /// Number of positions known so far.
+  [[nodiscard]] std::size_t size() const { return positions_.size(); }
+
+  [[nodiscard]] std::uint64_t seed() const { return seed_; }
+
+  /// Index (0..3) of the corner at s = right, t = bottom.
+  [[nodiscard]] static constexpr std::size_t corner_at(bool right, bool bottom) {
+    return right ? (bottom ? 1 : 2) : (bottom ? 3 : 0);
+  }
+
+  /// Positions of the finest level that is kept: 1025 x 1025.
+  static constexpr std::size_t max_size = std::size_t{1025} * 1025;
+
+ private:
+  void append_level();
+  void append(double s, double t, float spacing);
+
+  std::uint64_t seed_;
+  std::uint32_t level_ = 0;
+  std::uint32_t ranks_[6] = {};  // positions so far on each BlockSide
+  std::vector<SequencePosition> positions_;
+};
+
+}  // namespace freqsynth

@@ -1,0 +1,121 @@
+/// \file
+/// The priority metric (paper, section 4.4): how much a block deserves the next sample.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "freqsynth/basis/config.h"
+
+namespace freqsynth {
+
+/// How the change that a block's next sample will cause is estimated.
+enum class PriorityMeasure : std::uint8_t {
+  residual,  ///< from the residuals of all samples so far, of the block and of those around it
+  change     ///< the paper's: from what the last samples have changed
+};
+
+/// With PriorityMeasure::change, p_n = (1 - w) p_{n-1} + w (U r^n + V_n), where V_n is the mean
+/// squared change of the block's pixels caused by its n-th sample and U r^n the uncertainty of a
+/// block that has had few samples.
+///
+/// With PriorityMeasure::residual, p_n = (R + U_n) T / n^2: the change that least squares expects
+/// when T terms are fit to n samples with a residual variance of R; U_n is the running average of
+/// U r^n. R is that of the block, pooled with the blocks beside it and with the whole image: a
+/// regular pattern may look flat on the first samples of a whole block, but its neighbours know
+/// better.
+struct PrioritySettings {
+  /// w, weight of the newest estimate, in (0, 1].
+  double weight = 0.3;
+  /// U in units of the image's own variance, finite and >= 0, so that the signal's scale does not
+  /// matter.
+  double uncertainty = 1.0;
+  /// r, decay of the uncertainty per sample, in [0, 1).
+  double decay = 0.7165;
+  PriorityMeasure measure = PriorityMeasure::residual;
+  /// How many samples of the block's own the mean residuals of the blocks beside it count for;
+  /// finite and >= 0.
+  double neighbours = 16;
+  /// The same for the mean residuals of all blocks, so that no block is ever taken for flat.
+  double image = 1;
+
+  /// \throws std::invalid_argument naming the field and the value when out of range.
+  void validate() const;
+};
+
+/// The metric as a running value per block: the part that depends on the samples' values
+/// (variation) is kept by the caller, the part that depends on their number alone is tabulated
+/// here.
+class PriorityMetric {
+ public:
+  /// \param max_samples  most samples that a block can get
+  PriorityMetric(const PrioritySettings& settings, std::size_t max_samples);
+
+  /// Variation after one more sample that changed the block by `change`; starts at 0.
+  [[nodiscard]] float variation(float before, float change) const {
+    return before + weight_ * (change - before);
+  }
+
+  /// Priority of a block after `samples` (at least 1) samples, in squared units of the signal.
+  /// This one is the paper's.
+  /// \param variance  variance of the image
+  [[nodiscard]] float priority(float variation, std::size_t samples, float variance) const {
+    return variation + uncertainty(samples, variance);
+  }
+
+  /// The same from the variance of the residuals of a fit of `terms` terms.
+  [[nodiscard]] float expected_change(float residual, std::size_t samples, std::size_t terms,
+                                      float variance) const {
+    const auto n = static_cast<float>(samples);
+    return (residual + uncertainty(samples, variance)) * static_cast<float>(terms) / (n * n) +
+           variance * floor(samples);
+  }
+
+  /// U_n for an image of that variance.
+  [[nodiscard]] float uncertainty(std::size_t samples, float variance) const {
+    return variance * uncertainty_[samples];
+  }
+
+ private:
+  /// Keeps blocks that never changed in order: the one with the fewest samples comes first.
+  static float floor(std::size_t samples) { return 1e-12f / (static_cast<float>(samples) + 1); }
+
+  float weight_;
+  std::vector<float> uncertainty_;  // the running average of U r^n after n samples
+};
+
+// ------------------------------------------------------------------------------------ definitions
+
+inline void PrioritySettings::validate() const {
+  const auto check = [](bool good, const char* field, double value, const char* range) {
+    if (!good) {
+      throw std::invalid_argument("freqsynth: priority." + std::string(field) + " is " +
+                                  std::to_string(value) + ", not " + range);
+    }
+  };
+  check(weight > 0 && weight <= 1, "weight", weight, "in (0, 1]");
+  check(uncertainty >= 0 && std::isfinite(uncertainty), "uncertainty", uncertainty,
+        "a finite number >= 0");
+  check(neighbours >= 0 && std::isfinite(neighbours), "neighbours", neighbours,
+        "a finite number >= 0");
+  check(image >= 0 && std::isfinite(image), "image", image, "a finite number >= 0");
+  check(decay >= 0 && decay < 1, "decay", decay, "in [0, 1)");
+}
+
+inline PriorityMetric::PriorityMetric(const PrioritySettings& settings, std::size_t max_samples)
+    : weight_(static_cast<float>(settings.weight)), uncertainty_(max_samples + 1) {
+  settings.validate();
+  double running = settings.uncertainty;
+  double term = settings.uncertainty;
+  for (std::size_t n = 0; n <= max_samples; ++n) {
+    running += settings.weight * (term - running);
+    term *= settings.decay;
+    uncertainty_[n] = static_cast<float>(running) + floor(n);
+  }
+}
+
+}  // namespace freqsynth

@@ -1,0 +1,101 @@
+/// \file
+/// From the fit of a block to finished pixels: beyond the paper, what the fit leaves over is not
+/// thrown away.
+///
+/// A band-limited function cannot hold an edge, so the error of the paper's estimate stops falling
+/// at a few samples per pixel. Here the fit is a control variate: a pixel's mean is the exact mean
+/// of the filtered fit plus the average of (sample - fit) over the pixel's own samples, shrunk
+/// while they are few. That converges to the true mean.
+///
+/// The fit itself is filtered by what it says of itself, too: a coefficient that is hardly larger
+/// than its expected error is mostly noise. And a fit that rings beside an edge is held within what
+/// the samples around have shown.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "freqsynth/basis/config.h"
+#include "freqsynth/basis/inverse_list.h"
+#include "freqsynth/image/butterworth.h"
+
+namespace freqsynth {
+
+struct FinishSettings {
+  ButterworthSettings butterworth = {};
+  /// false: the paper's estimate, the mean of the filtered fit alone. The settings below are for
+  /// true.
+  bool residuals = true;
+  /// A pixel's residuals with a total weight of w samples count w / (w + doubt). Finite and >= 0.
+  double doubt = 0.5;
+  /// The doubt is measured in each block that has a sample per pixel or more: variance of the
+  /// residuals within pixels over that of the pixels' true means. It is right for independent
+  /// samples; of a function without noise evenly spread samples tell more.
+  bool measure_doubt = false;
+  /// A coefficient F with an expected squared error of e counts max(0, 1 - shrinkage e / F^2).
+  /// Finite and >= 0; 1 is the empirical Wiener filter.
+  double shrinkage = 2;
+  /// A pixel stays within the range of the means of the samples in it and in its 8 neighbours of
+  /// the same block, widened on each side by this share of the distance between its end and the
+  /// median; where fewer than 4 of them have samples, in the range of the whole block. Only in
+  /// blocks whose residuals are over 1 percent of that range. >= 0; infinite: no bounds.
+  double slack = 0.4;
+
+  /// For a sampler that returns Monte Carlo estimates.
+  [[nodiscard]] static FinishSettings noisy() {
+    FinishSettings settings;
+    settings.doubt = 1;
+    settings.measure_doubt = true;
+    return settings;
+  }
+
+  /// \throws std::invalid_argument naming the field and the value when out of range.
+  void validate() const;
+};
+
+/// Finishes blocks, those with fewer samples first. What depends on positions alone, the sum over
+/// each pixel's samples of every term, is shared by all blocks with the same number of samples.
+class PixelFinisher {
+ public:
+  /// \throws std::invalid_argument when a setting is out of range or the list is null.
+  PixelFinisher(std::shared_ptr<const InverseList> list, const FinishSettings& settings);
+
+  /// Goes on to blocks with `samples` samples; not less than before.
+  void advance(std::size_t samples);
+
+  /// Coefficients of finished pixels (CoefficientMeaning::pixel_average).
+  /// \param coefficients  of the fit, F in zig-zag order
+  /// \param pixel_sums    LeastSquaresRefiner::pixel_sums() of the same block
+  /// \param residual      variance of its residuals
+  void finish(std::span<const float, max_terms> coefficients,
+              std::span<const float, max_terms> pixel_sums, float residual,
+              std::span<float, max_terms> out) const;
+
+ private:
+  struct alignas(32) Row {
+    float values[max_terms];
+  };
+  void filter(std::span<const float, max_terms> coefficients, float residual,
+              std::span<float, max_terms> filtered) const;
+  double measured_doubt(std::span<const float, max_terms> coefficients,
+                        std::span<const float, max_terms> filtered, const Row& means,
+                        float residual) const;
+  void bound(std::span<const float, max_terms> pixel_sums, float residual,
+             std::span<float, max_terms> pixels) const;
+
+  std::shared_ptr<const InverseList> list_;
+  FinishSettings settings_;
+  std::size_t samples_ = 0;
+  std::array<float, max_terms> box_;      // mean over a pixel of each term, relative to its centre
+  std::array<float, max_terms> filter_;   // Butterworth factors
+  std::array<float, max_terms> weights_;  // samples of each pixel
+  Row inverse_weights_;                   // 0 without samples
+  std::vector<Row>
+      sums_;  // [pixel][row-major term]: weighted sum of the term over the pixel's samples
+};
+
+}  // namespace freqsynth

@@ -1,0 +1,98 @@
+/// \file
+/// The target of a synthesis that ends in a quantiser (paper, sections 1, 2 and 6): a block needs
+/// samples while the errors of its coefficients can still change what the quantiser keeps.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "freqsynth/basis/config.h"
+
+namespace freqsynth {
+
+/// Quantiser steps in the unit of the signal, and how much error beside that of the quantiser
+/// itself is allowed. It is the priority and the stop rule of a synthesis in one.
+struct QuantizationTarget {
+  /// No block is done with fewer samples, a complete lattice of 5 x 5: that much of any image is
+  /// looked at, whatever the first samples say.
+  static constexpr std::size_t least_samples = 25;
+
+  /// Per channel the step of each coefficient F in zig-zag order, > 0; infinity for one that is
+  /// dropped.
+  std::vector<std::array<float, max_terms>> steps;
+  /// A block is done when its expected squared error, in squared steps and summed over all
+  /// channels, is at most this share of what the quantiser itself does to a block of which it keeps
+  /// all coefficients: 1/12 for each. Finite and > 0; at 1/4 sampling takes at most 1 dB from such
+  /// a block.
+  double tolerance = 0.25;
+
+  /// The most squared error of a block that is done, in squared steps.
+  [[nodiscard]] double allowed_error() const {
+    return tolerance * static_cast<double>(max_terms * steps.size()) / 12;
+  }
+
+  /// \throws std::invalid_argument naming the field and the value when out of range.
+  void validate(std::size_t channels) const;
+};
+
+/// Factor on the squared error that least squares expects of independent samples, for samples that
+/// are spread evenly over a function without noise: the error at an edge falls with n^(-3/2)
+/// instead of 1/n once there is more than a sample per pixel.
+[[nodiscard]] inline float evenness(std::size_t samples) {
+  constexpr std::size_t pixels = block_size * block_size;
+  return samples <= pixels ? 1
+                           : std::sqrt(static_cast<float>(pixels) / static_cast<float>(samples));
+}
+
+/// Expected squared error of a channel of a block, in squared steps, over those coefficients whose
+/// error may change the quantised value. A coefficient that is quantised to zero and stays there,
+/// within two standard deviations, does not count: the quantiser removes its error.
+/// \param coefficients  F, zig-zag, as they will be quantised (but for the level shift of F(0,0))
+/// \param variances     expected squared error of each per unit of `residual`
+/// \param residual      variance of the residuals of the fit
+[[nodiscard]] float quantized_error(const std::array<float, max_terms>& steps,
+                                    std::span<const float, max_terms> coefficients,
+                                    std::span<const float, max_terms> variances, float residual);
+
+// ------------------------------------------------------------------------------------ definitions
+
+inline void QuantizationTarget::validate(std::size_t channels) const {
+  if (steps.size() != channels) {
+    throw std::invalid_argument("freqsynth: the quantization target has steps for " +
+                                std::to_string(steps.size()) + " of " + std::to_string(channels) +
+                                " channels");
+  }
+  for (const auto& channel : steps) {
+    for (const float step : channel) {
+      if (!(step > 0)) {
+        throw std::invalid_argument("freqsynth: a quantization target's step is " +
+                                    std::to_string(step) + ", not > 0");
+      }
+    }
+  }
+  if (!(tolerance > 0 && std::isfinite(tolerance))) {
+    throw std::invalid_argument("freqsynth: the quantization target's tolerance is " +
+                                std::to_string(tolerance) + ", not a finite number > 0");
+  }
+}
+
+inline float quantized_error(const std::array<float, max_terms>& steps,
+                             std::span<const float, max_terms> coefficients,
+                             std::span<const float, max_terms> variances, float residual) {
+  float sum = 0;
+  for (std::size_t i = 0; i < max_terms; ++i) {
+    const float variance = residual * variances[i] / (steps[i] * steps[i]);
+    const float magnitude = std::abs(coefficients[i]) / steps[i];
+    const float margin = 0.5f - magnitude;  // to the nearest value that is not quantised to 0
+    const bool stays_zero = i > 0 && margin > 0 && margin * margin > 4 * variance;
+    sum += stays_zero ? 0 : variance;
+  }
+  return sum;
+}
+
+}  // namespace freqsynth

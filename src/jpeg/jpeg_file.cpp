@@ -1,0 +1,126 @@
+#include <cerrno>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <ostream>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include "freqsynth/jpeg/jpeg.h"
+
+namespace freqsynth {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(const char* action, const fs::path& file, const std::error_code& reason) {
+  throw std::runtime_error("freqsynth: cannot " + std::string(action) + " " + file.string() + ": " +
+                           reason.message());
+}
+
+/// The reason of a failed call of the C library.
+std::error_code last_error() { return {errno != 0 ? errno : EIO, std::generic_category()}; }
+
+struct Close {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using File = std::unique_ptr<std::FILE, Close>;
+
+/// Writes all bytes and closes the file, which may be what fails.
+std::error_code write_and_close(File file, std::span<const std::uint8_t> bytes) {
+  errno = 0;
+  std::error_code error;
+  if (std::fwrite(bytes.data(), 1, bytes.size(), file.get()) != bytes.size()) error = last_error();
+  if (std::fclose(file.release()) != 0 && !error) error = last_error();
+  return error;
+}
+
+/// Creates a file that did not exist, beside `file`.
+File create_beside(const fs::path& file, fs::path& created) {
+  std::random_device random;
+  for (int attempt = 0; attempt < 100; ++attempt) {
+    created = file.parent_path() / (".freqsynth-" + std::to_string(random()) + ".tmp");
+    errno = 0;
+    if (File made{std::fopen(created.c_str(), "wbx")}) return made;
+    if (errno != EEXIST) break;
+  }
+  fail("write", file, last_error());
+}
+
+/// All of the new content or, on failure, all of the old.
+void replace(const fs::path& file, bool exists, std::span<const std::uint8_t> bytes) {
+  // A file that may not be written must not be replaced either.
+  errno = 0;
+  if (exists && !File{std::fopen(file.c_str(), "r+b")}) fail("write", file, last_error());
+  fs::path temporary;
+  std::error_code error = write_and_close(create_beside(file, temporary), bytes);
+  if (!error && exists) {
+    std::error_code ignored;
+    fs::permissions(temporary, fs::status(file).permissions(), ignored);
+  }
+  if (!error) fs::rename(temporary, file, error);
+  if (error) {
+    std::error_code ignored;
+    fs::remove(temporary, ignored);
+    fail("write", file, error);
+  }
+}
+
+std::vector<std::uint8_t> read_all(const std::string& file) {
+  errno = 0;
+  const File input{std::fopen(file.c_str(), "rb")};
+  if (!input) fail("read", file, last_error());
+  std::vector<std::uint8_t> bytes;
+  std::size_t used = 0;
+  while (used == bytes.size()) {
+    bytes.resize(used + used / 2 + (1 << 16));
+    used += std::fread(bytes.data() + used, 1, bytes.size() - used, input.get());
+  }
+  if (std::ferror(input.get()) != 0) fail("read", file, last_error());
+  bytes.resize(used);
+  return bytes;
+}
+
+}  // namespace
+
+void write_jpeg(const std::string& file, const QuantizedImage& image, const JpegOptions& options) {
+  const std::vector<std::uint8_t> bytes = encode_jpeg(image, options);
+  std::error_code error;
+  fs::path target = file;
+  const fs::file_status own = fs::symlink_status(target, error);
+  if (own.type() == fs::file_type::not_found) return replace(target, false, bytes);
+  // A link stays, what it names is replaced.
+  if (own.type() == fs::file_type::symlink) {
+    const fs::path named = fs::canonical(target, error);
+    if (!error) target = named;
+  }
+  if (fs::is_regular_file(target, error)) return replace(target, true, bytes);
+  errno = 0;
+  File device{std::fopen(target.c_str(), "wb")};
+  if (!device) fail("write", file, last_error());
+  error = write_and_close(std::move(device), bytes);
+  if (error) fail("write", file, error);
+}
+
+void write_jpeg(std::ostream& stream, const QuantizedImage& image, const JpegOptions& options) {
+  const std::vector<std::uint8_t> bytes = encode_jpeg(image, options);
+  stream.write(reinterpret_cast<const char*>(bytes.data()),
+               static_cast<std::streamsize>(bytes.size()));
+  stream.flush();
+  if (!stream) throw std::runtime_error("freqsynth: write_jpeg: the stream failed");
+}
+
+QuantizedImage read_jpeg(const std::string& file) {
+  const std::vector<std::uint8_t> bytes = read_all(file);
+  try {
+    return decode_jpeg(bytes);
+  } catch (const std::runtime_error& error) {
+    const std::string reason = std::string(error.what()).substr(std::string("freqsynth: ").size());
+    throw std::runtime_error("freqsynth: cannot read " + file + ": " + reason);
+  }
+}
+
+}  // namespace freqsynth
