@@ -18,7 +18,8 @@ endif()
 
 set(files "")
 foreach(folder IN ITEMS include src tests examples benchmarks)
-  file(GLOB_RECURSE found RELATIVE "${ROOT}" "${ROOT}/${folder}/*.h" "${ROOT}/${folder}/*.cpp")
+  file(GLOB_RECURSE found RELATIVE "${ROOT}" "${ROOT}/${folder}/*.h" "${ROOT}/${folder}/*.inl"
+    "${ROOT}/${folder}/*.cpp")
   list(APPEND files ${found})
 endforeach()
 if(FIX)

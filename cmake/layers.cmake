@@ -4,6 +4,9 @@
 # include only headers that stand above it, and the README's table is made from it.
 set(FREQSYNTH_LAYERS
   "basis/config.h|version, block size, assertion|"
+  "basis/float_bits.h|what kind of number a value is, also under -ffast-math|"
+  "basis/check.h|how arguments are refused|"
+  "basis/aligned.h|memory that starts on a cache line|"
   "basis/kernels.h|the vectorised inner loops|"
   "basis/dct.h|cosine terms at any point, zig-zag order, forward and inverse transform|2, eqs. 1, 2, 34"
   "basis/sample_sequence.h|the quad-tree order of samples, and which sample is whose partner across an edge|4.3.1"

@@ -1,5 +1,11 @@
 /// \file
-/// Version, block constants and the assertion macro: what every other header may rely on.
+/// Version, block constants, and the macros of the two ways to build: what every other header may
+/// rely on.
+///
+/// The library is used compiled (the default, target freqsynth::freqsynth), or header-only: define
+/// FREQSYNTH_HEADER_ONLY in every file that includes it (target freqsynth::header_only does), and
+/// there is nothing to build or link. A header x.h holds declarations, x.inl the definitions; with
+/// FREQSYNTH_HEADER_ONLY x.h includes x.inl, otherwise src/ does, once. One program uses one way.
 #pragma once
 
 #include <cassert>
@@ -13,6 +19,24 @@
 /// Checks an invariant of the library itself. Callers' mistakes throw instead.
 #ifndef FREQSYNTH_ASSERT
 #define FREQSYNTH_ASSERT(condition) assert(condition)
+#endif
+
+/// FREQSYNTH_INLINE stands before definitions in x.inl; FREQSYNTH_API before what a shared library
+/// shows to the world (FREQSYNTH_SHARED is set by the build where that needs to be known).
+#if defined(FREQSYNTH_HEADER_ONLY)
+#define FREQSYNTH_INLINE inline
+#define FREQSYNTH_API
+#else
+#define FREQSYNTH_INLINE
+#if defined(_WIN32) && defined(FREQSYNTH_SHARED) && defined(FREQSYNTH_BUILDING)
+#define FREQSYNTH_API __declspec(dllexport)
+#elif defined(_WIN32) && defined(FREQSYNTH_SHARED)
+#define FREQSYNTH_API __declspec(dllimport)
+#elif defined(_WIN32)
+#define FREQSYNTH_API
+#else
+#define FREQSYNTH_API __attribute__((visibility("default")))
+#endif
 #endif
 
 namespace freqsynth {

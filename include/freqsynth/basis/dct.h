@@ -33,25 +33,25 @@ struct Frequency {
 
 /// Mean of zig-zag term `term` over a pixel, relative to its value at the pixel's centre: sinc(u /
 /// 16) sinc(v / 16) with sinc(z) = sin(pi z) / (pi z), the same for all pixels of the block.
-[[nodiscard]] double pixel_mean_of_term(std::size_t term);
+[[nodiscard]] FREQSYNTH_API double pixel_mean_of_term(std::size_t term);
 
 /// Writes cos(pi u s) cos(pi v t) (eq. 28) of the first `terms.size()` (at most 64) zig-zag terms.
 /// (s, t) may lie anywhere, also outside the block, where the even periodic extension is meant.
-void evaluate_terms(double s, double t, std::span<double> terms);
+FREQSYNTH_API void evaluate_terms(double s, double t, std::span<double> terms);
 
 /// Forward transform (eq. 1): 64 pixel values, row by row, to 64 coefficients F in zig-zag order.
-void forward_dct(std::span<const float, max_terms> pixels,
-                 std::span<float, max_terms> coefficients);
+FREQSYNTH_API void forward_dct(std::span<const float, max_terms> pixels,
+                               std::span<float, max_terms> coefficients);
 
 /// Inverse transform (eq. 2; eq. 34 for fewer terms): the first `terms` (1..64) coefficients F in
 /// zig-zag order to 64 pixel values at the pixels' centres, row by row. Later ones count as zero.
 /// \throws std::invalid_argument when `terms` is not in 1..64.
-void inverse_dct(std::span<const float, max_terms> coefficients, std::span<float, max_terms> pixels,
-                 std::size_t terms = max_terms);
+FREQSYNTH_API void inverse_dct(std::span<const float, max_terms> coefficients,
+                               std::span<float, max_terms> pixels, std::size_t terms = max_terms);
 
 /// Value at (s, t) of the block with coefficients F in zig-zag order: eq. 2 at any point.
-[[nodiscard]] double evaluate_block(std::span<const float, max_terms> coefficients, double s,
-                                    double t);
+[[nodiscard]] FREQSYNTH_API double evaluate_block(std::span<const float, max_terms> coefficients,
+                                                  double s, double t);
 
 // ------------------------------------------------------------------------------------ definitions
 
@@ -109,3 +109,7 @@ constexpr double amplitude_of_coefficient(std::size_t term) {
 }
 
 }  // namespace freqsynth
+
+#if defined(FREQSYNTH_HEADER_ONLY)
+#include "freqsynth/basis/dct.inl"
+#endif
