@@ -13,6 +13,7 @@
 #include "freqsynth/basis/inverse_list.h"
 #include "freqsynth/basis/normal_inverse.h"
 #include "freqsynth/basis/sample_sequence.h"
+#include "freqsynth/basis/shared_list.h"
 #include "freqsynth/sampler.h"
 
 namespace freqsynth::bench {
@@ -45,9 +46,9 @@ inline std::unique_ptr<TermMatrix> normal_matrix(std::size_t terms) {
 }
 
 /// A list that exists already, for images that share it.
-inline std::shared_ptr<const InverseList> prepared_list() {
-  static const std::shared_ptr<const InverseList> list = [] {
-    auto made = std::make_shared<const InverseList>();
+inline SharedInverseList prepared_list() {
+  static const SharedInverseList list = [] {
+    auto made = SharedInverseList(InverseListSettings{});
     made->reserve(4096);
     return made;
   }();

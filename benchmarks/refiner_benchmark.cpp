@@ -21,6 +21,7 @@
 
 #include "fixtures.h"
 #include "freqsynth/refine/least_squares_refiner.h"
+#include "freqsynth/refine/literal_refiner.h"
 
 namespace freqsynth::bench {
 namespace {

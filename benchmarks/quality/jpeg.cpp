@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "baselines/methods.h"
+#include "freqsynth/engine/thread_pool.h"
 #include "freqsynth/freqsynth.h"
 #include "freqsynth/jpeg/jpeg.h"
 #include "pixels_to_jpeg.h"

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "freqsynth/engine/executor.h"
+#include "freqsynth/engine/thread_pool.h"
 #include "freqsynth_render/option_values.h"
 #include "freqsynth_render/picture.h"
 #include "freqsynth_render/progress_bar.h"

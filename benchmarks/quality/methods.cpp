@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "freqsynth/basis/sample_sequence.h"
 #include "freqsynth/freqsynth.h"
 
 namespace quality {

@@ -11,6 +11,7 @@
 
 #include "baselines/rendering.h"
 #include "freqsynth/engine/executor.h"
+#include "freqsynth/engine/thread_pool.h"
 
 namespace quality {
 

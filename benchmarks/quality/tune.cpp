@@ -26,6 +26,7 @@
 #include <utility>
 #include <vector>
 
+#include "freqsynth/engine/thread_pool.h"
 #include "freqsynth/freqsynth.h"
 #include "freqsynth_render/option_values.h"
 #include "freqsynth_render/progress_bar.h"

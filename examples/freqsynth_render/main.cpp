@@ -13,6 +13,8 @@
 #include <vector>
 
 #include "direct.h"
+#include "freqsynth/basis/sample_sequence.h"
+#include "freqsynth/engine/thread_pool.h"
 #include "freqsynth/freqsynth.h"
 #include "options.h"
 #include "picture.h"

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 
+#include "freqsynth/engine/thread_pool.h"
 #include "freqsynth/jpeg/display_encoding.h"
 #include "sampling.h"
 #include "scenes/random.h"

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "freqsynth/engine/executor.h"
+#include "freqsynth/engine/thread_pool.h"
 #include "options.h"
 #include "picture.h"
 #include "scenes/scene.h"

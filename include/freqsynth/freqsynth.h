@@ -1,17 +1,13 @@
 /// \file
-/// All of freqsynth: adaptive image synthesis in the frequency domain (M. R. Bolin, "Application of
-/// Image Compression Algorithms to Realistic Image Synthesis", 1995).
+/// Adaptive image synthesis in the frequency domain (M. R. Bolin, "Application of Image Compression
+/// Algorithms to Realistic Image Synthesis", 1995): all that a host needs. Other parts, each usable
+/// alone, have headers of their own in the folders.
 #pragma once
 
 #include "freqsynth/basis/config.h"
 #include "freqsynth/basis/dct.h"
-#include "freqsynth/basis/inverse_list.h"
-#include "freqsynth/basis/normal_inverse.h"
-#include "freqsynth/basis/sample_sequence.h"
-#include "freqsynth/engine/block_queue.h"
-#include "freqsynth/engine/edge_cache.h"
+#include "freqsynth/basis/shared_list.h"
 #include "freqsynth/engine/executor.h"
-#include "freqsynth/engine/priority.h"
 #include "freqsynth/image/butterworth.h"
 #include "freqsynth/image/frequency_image.h"
 #include "freqsynth/image/pixel_finisher.h"
@@ -19,6 +15,9 @@
 #include "freqsynth/jpeg/display_encoding.h"
 #include "freqsynth/jpeg/quantization.h"
 #include "freqsynth/jpeg/quantization_target.h"
-#include "freqsynth/refine/least_squares_refiner.h"
 #include "freqsynth/sampler.h"
 #include "freqsynth/synthesizer.h"
+
+#if !defined(FREQSYNTH_HEADER_ONLY)
+#include "freqsynth/engine/thread_pool.h"
+#endif

@@ -1,18 +1,23 @@
 /// \file
 /// What the library asks of a host, and in which form: requests and the sampler concepts.
 ///
-/// A host's radiance function comes in one of two forms:
+/// A host's radiance function comes in one of three forms:
 ///  - scalar: `f(x, y)` returns a float (or double) for one channel, or a std::array of them;
+///  - by request: `f(request)` does the same for a `const Request&`, which has more than the
+///    position: a name to seed random numbers with, the distance to other samples;
 ///  - batch: `f(std::span<const Request>, std::span<float>)` writes `channels` values per request,
 ///    those of request i at [i * channels, (i + 1) * channels).
 #pragma once
 
 #include <array>
+#include <bit>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <type_traits>
+
+#include "freqsynth/basis/config.h"
 
 namespace freqsynth {
 
@@ -29,6 +34,16 @@ struct Request {
   float spacing = 0;
   std::uint32_t slot = 0;  ///< the engine's own note; hand it back unchanged
 };
+
+/// Largest magnitude that a block can absorb: squares of sums of many such values stay finite.
+inline constexpr float max_sample_magnitude = 1e15f;
+
+/// False for a value that is too large, infinite or not a number. Told from the bits, so that it is
+/// right in a caller that is compiled for finite numbers only (-ffast-math), too.
+[[nodiscard]] constexpr bool is_usable_sample(float value) {
+  return (std::bit_cast<std::uint32_t>(value) & 0x7fffffffu) <=
+         std::bit_cast<std::uint32_t>(max_sample_magnitude);
+}
 
 namespace detail {
 
@@ -55,47 +70,89 @@ struct SampleTraits<std::array<T, N>> {
   }
 };
 
+template <class F, class... Arguments>
+using SampleTraitsOf = SampleTraits<std::remove_cvref_t<std::invoke_result_t<F&, Arguments...>>>;
+
+/// Functions of whole numbers, which would cut off the fractions of a position. Braces accept no
+/// narrowing, so that a character, the smallest of integers, initialises nothing but an integer.
+template <class F>
+concept TakesIntegers = requires(F& f, signed char c, double d) {
+  f({c}, d);
+}
+|| requires(F& f, unsigned char c, double d) { f({c}, d); }
+|| requires(F& f, signed char c, double d) { f(d, {c}); }
+|| requires(F& f, unsigned char c, double d) { f(d, {c}); };
+
 }  // namespace detail
 
 /// A function of a position (x, y) in pixels that returns one number or a std::array of numbers.
 template <class F>
-concept ScalarSampler = std::invocable<F&, double, double> &&
-    detail::SampleTraits<std::remove_cvref_t<std::invoke_result_t<F&, double, double>>>::valid;
+concept ScalarSampler = std::invocable<F&, double, double> && !detail::TakesIntegers<F> &&
+                        detail::SampleTraitsOf<F, double, double>::valid;
 
-/// A function that fills in the values of many requests at once.
+/// A function of a request that returns one number or a std::array of numbers.
 template <class F>
-concept BatchSampler = std::invocable<F&, std::span<const Request>, std::span<float>>;
+concept RequestSampler =
+    std::invocable<F&, const Request&> && detail::SampleTraitsOf<F, const Request&>::valid;
 
-/// Either form.
+/// A function that fills in the values of many requests at once. Until it does they are NaN, so
+/// that a value that was forgotten counts as a bad sample.
 template <class F>
-concept Sampler = ScalarSampler<F> || BatchSampler<F>;
+concept BatchSampler = !std::invocable<F&, double, double> &&
+                       std::invocable<F&, std::span<const Request>, std::span<float>>;
+
+/// One of the forms.
+template <class F>
+concept Sampler = ScalarSampler<F> || RequestSampler<F> || BatchSampler<F>;
 
 namespace detail {
+
+/// Refuses, with a sentence, what is no sampler.
+template <class F>
+constexpr void check_sampler() {
+  static_assert(!TakesIntegers<F>,
+                "freqsynth: the sampler takes whole numbers, but positions are fractions of "
+                "pixels: let it take (double x, double y)");
+  static_assert(TakesIntegers<F> || Sampler<F>,
+                "freqsynth: a sampler is a function (double x, double y) or (const Request&) that "
+                "returns a number or a std::array of numbers, or a function "
+                "(std::span<const Request>, std::span<float>) that writes them");
+}
 
 /// Number of values that a sampler returns, or `unknown` for a batch sampler, which does not say.
 template <Sampler S>
 constexpr std::size_t sampler_channels(std::size_t unknown) {
-  if constexpr (BatchSampler<S>) {
-    return unknown;
+  if constexpr (ScalarSampler<S>) {
+    return SampleTraitsOf<S, double, double>::channels;
+  } else if constexpr (RequestSampler<S>) {
+    return SampleTraitsOf<S, const Request&>::channels;
   } else {
-    return SampleTraits<std::remove_cvref_t<std::invoke_result_t<S&, double, double>>>::channels;
+    return unknown;
   }
 }
 
-/// Calls a sampler of either form for a run of requests. `done` counts the requests whose values
-/// are complete, also when the sampler throws.
+/// Calls a sampler of any form for a run of requests. `done` counts the requests whose values are
+/// complete, also when the sampler throws.
 template <class S>
 void call_sampler(S& sampler, std::span<const Request> requests, std::span<float> values,
                   std::size_t& done) {
-  if constexpr (BatchSampler<S>) {
-    sampler(requests, values);
-    done = requests.size();
-  } else {
-    using Traits = SampleTraits<std::remove_cvref_t<std::invoke_result_t<S&, double, double>>>;
+  if constexpr (ScalarSampler<S>) {
+    using Traits = SampleTraitsOf<S, double, double>;
     for (const Request& request : requests) {
       Traits::store(sampler(request.x, request.y), values.data() + done * Traits::channels);
       ++done;
     }
+  } else if constexpr (RequestSampler<S>) {
+    using Traits = SampleTraitsOf<S, const Request&>;
+    for (const Request& request : requests) {
+      Traits::store(sampler(request), values.data() + done * Traits::channels);
+      ++done;
+    }
+  } else {
+    // A NaN by its bits, which no compiler takes for impossible.
+    for (float& value : values) value = std::bit_cast<float>(0x7fc00000u);
+    sampler(requests, values);
+    done = requests.size();
   }
 }
 

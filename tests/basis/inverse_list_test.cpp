@@ -1,4 +1,5 @@
 #include "freqsynth/basis/inverse_list.h"
+#include "freqsynth/basis/sample_sequence.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

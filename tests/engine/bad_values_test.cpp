@@ -4,7 +4,9 @@
 #include <limits>
 #include <vector>
 
+#include "freqsynth/basis/sample_sequence.h"
 #include "freqsynth/refine/least_squares_refiner.h"
+#include "freqsynth/sampler.h"
 #include "support/oracles.h"
 #include "support/refiner_helpers.h"
 

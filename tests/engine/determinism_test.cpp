@@ -7,6 +7,7 @@
 #include <thread>
 #include <vector>
 
+#include "freqsynth/engine/thread_pool.h"
 #include "freqsynth/synthesizer.h"
 #include "support/engine_helpers.h"
 #include "support/oracles.h"

@@ -1,4 +1,5 @@
 #include "freqsynth/engine/edge_cache.h"
+#include "freqsynth/basis/sample_sequence.h"
 
 #include <gtest/gtest.h>
 

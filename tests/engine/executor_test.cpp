@@ -1,4 +1,5 @@
 #include "freqsynth/engine/executor.h"
+#include "freqsynth/engine/thread_pool.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "freqsynth/basis/inverse_list.h"
+#include "freqsynth/basis/sample_sequence.h"
 #include "freqsynth/synthesizer.h"
 #include "support/engine_helpers.h"
 #include "support/oracles.h"

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "freqsynth/basis/shared_list.h"
 #include "freqsynth/synthesizer.h"
 #include "support/engine_helpers.h"
 
@@ -153,7 +154,7 @@ TEST(SynthesizerSettings, ImagesMayShareAList) {
   SynthesisSettings own = settings_of(48, 32);
   own.list = list_settings;
   SynthesisSettings shared = settings_of(48, 32);
-  shared.shared_list = std::make_shared<const InverseList>(list_settings);
+  shared.shared_list = SharedInverseList(list_settings);
   Synthesizer reference(own), first(shared), second(shared);
   EXPECT_EQ(first.settings().shared_list, shared.shared_list);
   for (Synthesizer* engine : {&reference, &first, &second}) {

@@ -1,4 +1,6 @@
 #include "freqsynth/synthesizer.h"
+#include "freqsynth/basis/inverse_list.h"
+#include "freqsynth/basis/sample_sequence.h"
 
 #include <gtest/gtest.h>
 

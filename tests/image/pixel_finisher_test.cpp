@@ -12,7 +12,11 @@
 #include <stdexcept>
 #include <vector>
 
+#include "freqsynth/basis/aligned.h"
 #include "freqsynth/basis/dct.h"
+#include "freqsynth/basis/inverse_list.h"
+#include "freqsynth/basis/sample_sequence.h"
+#include "freqsynth/basis/shared_list.h"
 #include "freqsynth/image/reconstructor.h"
 #include "freqsynth/refine/least_squares_refiner.h"
 #include "freqsynth/synthesizer.h"
@@ -39,15 +43,15 @@ struct FittedBlock {
       std::size_t samples,
       const std::function<double(const SequencePosition&, std::size_t)>& function =
           [](const SequencePosition& p, std::size_t) { return edge(p.s, p.t); })
-      : refiner(list, 1), state(refiner.state_size() / 16) {
-    refiner.reset(state.data()->values);
+      : refiner(list, 1), state(refiner.state_size()) {
+    refiner.reset(state.data());
     for (std::size_t n = 0; n < samples; ++n) {
       const auto value = static_cast<float>(function(list->position(n), n));
-      refiner.absorb(state.data()->values, n, &value);
+      refiner.absorb(state.data(), n, &value);
     }
-    refiner.coefficients(state.data()->values, samples, 0, coefficients);
+    refiner.coefficients(state.data(), samples, 0, coefficients);
     const std::size_t terms = list->terms(samples - 1);
-    residual = refiner.squared_residuals(state.data()->values, 0) /
+    residual = refiner.squared_residuals(state.data(), 0) /
                static_cast<float>(samples > terms ? samples - terms : 1);
   }
 
@@ -56,17 +60,14 @@ struct FittedBlock {
     PixelFinisher finisher(list, settings);
     finisher.advance(samples);
     Block out{}, pixels{};
-    finisher.finish(coefficients, refiner.pixel_sums(state.data()->values, 0), residual, out);
+    finisher.finish({coefficients, refiner.pixel_sums(state.data(), 0), residual}, out);
     inverse_dct(out, pixels);
     return pixels;
   }
 
-  struct alignas(64) Line {
-    float values[16];
-  };
-  std::shared_ptr<const InverseList> list = std::make_shared<const InverseList>();
+  SharedInverseList list = SharedInverseList(InverseListSettings{});
   LeastSquaresRefiner refiner;
-  std::vector<Line> state;
+  detail::AlignedVector<float> state;
   Block coefficients{};
   float residual = 0;
 };
@@ -270,7 +271,7 @@ TEST(PixelFinisher, SurvivesBadSamples) {
 }
 
 TEST(PixelFinisher, RefusesSettingsOutOfRange) {
-  const auto list = std::make_shared<const InverseList>();
+  const auto list = SharedInverseList(InverseListSettings{});
   FinishSettings settings;
   settings.doubt = -1;
   EXPECT_THROW(PixelFinisher(list, settings), std::invalid_argument);
@@ -283,7 +284,7 @@ TEST(PixelFinisher, RefusesSettingsOutOfRange) {
   settings = {};
   settings.butterworth.order = 0;
   EXPECT_THROW(PixelFinisher(list, settings), std::invalid_argument);
-  EXPECT_THROW(PixelFinisher(nullptr, {}), std::invalid_argument);
+  EXPECT_THROW(PixelFinisher(SharedInverseList(), {}), std::invalid_argument);
 }
 
 }  // namespace

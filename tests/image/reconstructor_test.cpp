@@ -9,6 +9,7 @@
 #include <limits>
 #include <vector>
 
+#include "freqsynth/basis/dct.h"
 #include "freqsynth/synthesizer.h"
 #include "support/engine_helpers.h"
 #include "support/image_helpers.h"

@@ -11,7 +11,10 @@
 #include <stdexcept>
 #include <utility>
 
+#include "freqsynth/basis/inverse_list.h"
+#include "freqsynth/basis/shared_list.h"
 #include "freqsynth/jpeg/quantization.h"
+#include "freqsynth/refine/least_squares_refiner.h"
 #include "freqsynth/synthesizer.h"
 
 namespace freqsynth {
@@ -74,7 +77,7 @@ TEST(QuantizationTarget, HalvedChromaCountsAsTwiceTheStep) {
 // The variances of the inverse list are those of least squares: white noise with variance 1 in the
 // samples gives coefficients with just that squared error, on average over many blocks.
 TEST(QuantizationTarget, PredictedVariancesAreThoseOfNoise) {
-  const auto list = std::make_shared<const InverseList>();
+  const auto list = SharedInverseList(InverseListSettings{});
   const LeastSquaresRefiner refiner(list, 1);
   constexpr std::size_t samples = 200;
   constexpr int blocks = 4000;

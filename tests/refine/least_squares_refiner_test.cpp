@@ -1,4 +1,6 @@
 #include "freqsynth/refine/least_squares_refiner.h"
+#include "freqsynth/basis/sample_sequence.h"
+#include "freqsynth/refine/literal_refiner.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -221,7 +223,7 @@ TEST(LeastSquaresRefiner, OneObjectServesManyBlocks) {
 
 TEST(LeastSquaresRefiner, WrongSettingsAreNamed) {
   const auto list = shared_list();
-  EXPECT_THAT([] { LeastSquaresRefiner(nullptr, 1); },
+  EXPECT_THAT([] { LeastSquaresRefiner(SharedInverseList(), 1); },
               ThrowsMessage<std::invalid_argument>(HasSubstr("list")));
   EXPECT_THAT([&] { LeastSquaresRefiner(list, 0); },
               ThrowsMessage<std::invalid_argument>(HasSubstr("channels is 0")));

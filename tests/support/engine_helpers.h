@@ -45,9 +45,11 @@ inline freqsynth::StopRule at_samples_per_pixel(double samples) {
   return stop;
 }
 
+/// The threshold alone, whatever number of samples blocks have had.
 inline freqsynth::StopRule at_threshold(double threshold) {
   freqsynth::StopRule stop;
   stop.aliasing_threshold = threshold;
+  stop.least_samples = 0;
   return stop;
 }
 

@@ -5,10 +5,13 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <memory>
 #include <utility>
 #include <vector>
 
+#include "freqsynth/basis/aligned.h"
+#include "freqsynth/basis/inverse_list.h"
+#include "freqsynth/basis/sample_sequence.h"
+#include "freqsynth/basis/shared_list.h"
 #include "freqsynth/refine/least_squares_refiner.h"
 #include "support/oracles.h"
 
@@ -18,10 +21,11 @@ using freqsynth::InverseList;
 using freqsynth::LeastSquaresRefiner;
 using freqsynth::max_terms;
 using freqsynth::SequencePosition;
+using freqsynth::SharedInverseList;
 using Coefficients = std::array<float, max_terms>;
 
-inline std::shared_ptr<const InverseList> shared_list() {
-  static const auto list = std::make_shared<const InverseList>();
+inline SharedInverseList shared_list() {
+  static const SharedInverseList list(freqsynth::InverseListSettings{});
   return list;
 }
 
@@ -29,28 +33,23 @@ inline std::shared_ptr<const InverseList> shared_list() {
 class Block {
  public:
   explicit Block(const LeastSquaresRefiner& refiner)
-      : refiner_(&refiner), lines_(refiner.state_size() / 8) {
-    refiner_->reset(state());
+      : refiner_(&refiner), state_(refiner.state_size()) {
+    refiner_->reset(state_.data());
   }
   float add(std::vector<float> values) {
-    return refiner_->absorb(state(), samples_++, values.data());
+    return refiner_->absorb(state_.data(), samples_++, values.data());
   }
   [[nodiscard]] Coefficients coefficients(std::size_t channel = 0) const {
     Coefficients out;
-    refiner_->coefficients(lines_.data()->values, samples_, channel, out);
+    refiner_->coefficients(state_.data(), samples_, channel, out);
     return out;
   }
   [[nodiscard]] std::size_t samples() const { return samples_; }
   [[nodiscard]] const SequencePosition& next() const { return refiner_->list().position(samples_); }
 
  private:
-  struct alignas(32) Line {
-    float values[8];
-  };
-  float* state() { return lines_.data()->values; }
-
   const LeastSquaresRefiner* refiner_;
-  std::vector<Line> lines_;
+  freqsynth::detail::AlignedVector<float> state_;
   std::size_t samples_ = 0;
 };
 

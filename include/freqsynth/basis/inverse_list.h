@@ -9,32 +9,25 @@
 #include <array>
 #include <atomic>
 #include <cstddef>
-#include <cstdint>
-#include <memory>
-#include <mutex>
 #include <span>
 #include <vector>
 
 #include "freqsynth/basis/config.h"
 #include "freqsynth/basis/kernels.h"
-#include "freqsynth/basis/normal_inverse.h"
+#include "freqsynth/basis/list_settings.h"
 #include "freqsynth/basis/sample_sequence.h"
 
 namespace freqsynth {
 
-struct InverseListSettings {
-  /// Samples per added term (paper, 4.2.1: two to three). At least 1; at low rates a term waits
-  /// until the samples determine it.
-  double samples_per_term = 2.5;
-  /// Largest number of terms, 1..64.
-  std::size_t max_terms = freqsynth::max_terms;
-  /// Seed of the sequence's random choices.
-  std::uint64_t seed = 0;
-};
-
 /// The list: grown lazily, each entry built once in double and never moved. All members may be
 /// called from several threads; entries that exist are read without a lock.
-class InverseList {
+///
+/// Each entry keeps what a synthesis reads, about 1.3 kB. J^-1 and the vectors in double, up to 18
+/// kB, are computed when they are asked for, and kept.
+///
+/// When memory runs out a member throws std::bad_alloc, and the list is as it was: it can be asked
+/// again.
+class FREQSYNTH_API InverseList {
  public:
   /// \throws std::invalid_argument naming the field and the value when a setting is out of range.
   explicit InverseList(const InverseListSettings& settings = {});
@@ -57,13 +50,6 @@ class InverseList {
   [[nodiscard]] const SequencePosition& position(std::size_t index) const;
   /// Number of terms T after `index`.
   [[nodiscard]] std::size_t terms(std::size_t index) const;
-  /// J^-1 after `index`: the lower triangle, row by row, T (T + 1) / 2 values.
-  [[nodiscard]] std::span<const double> inverse(std::size_t index) const;
-  /// k = J^-1 A of the terms that were in the fit before `index`: the amplitudes change by k times
-  /// the difference of sample and prediction.
-  [[nodiscard]] std::span<const double> gain(std::size_t index) const;
-  /// The bordering vector -J^-1 B of the term added after `index`; empty when none is.
-  [[nodiscard]] std::span<const double> border(std::size_t index) const;
   /// Expected squared error of each coefficient F after `index`, per unit of residual variance: for
   /// terms in the fit (J^-1)(i, i) in the scale of F; for the others what they may hold, when the
   /// energy that the fit leaves over is spread like that of edges, 1 / frequency^3.
@@ -71,32 +57,53 @@ class InverseList {
   /// What the hot path reads: gains rounded to float.
   [[nodiscard]] const detail::SampleRow& row(std::size_t index) const;
 
+  // In double, computed on demand: at most 64 updates of J^-1 at the first call for an index.
+
+  /// J^-1 after `index`: the lower triangle, row by row, T (T + 1) / 2 values.
+  [[nodiscard]] std::span<const double> inverse(std::size_t index) const;
+  /// k = J^-1 A of the terms that were in the fit before `index`: the amplitudes change by k times
+  /// the difference of sample and prediction.
+  [[nodiscard]] std::span<const double> gain(std::size_t index) const;
+  /// The bordering vector -J^-1 B of the term added after `index`; empty when none is.
+  [[nodiscard]] std::span<const double> border(std::size_t index) const;
+
  private:
   static constexpr std::size_t chunk_size = 64;
   struct Chunk;
+  struct Exact;
   struct Builder;
+  struct Replay;
 
   [[nodiscard]] const Chunk& chunk_of(std::size_t index) const;
   void grow(std::size_t count) const;
+  const Exact& exact(std::size_t index) const;
 
   InverseListSettings settings_;
   // Growing on demand is invisible to the reader; hence a const list may grow.
-  mutable std::mutex growing_;
-  mutable std::unique_ptr<Builder> builder_;
-  mutable std::vector<std::atomic<Chunk*>> chunks_;
   mutable std::atomic<std::size_t> size_{0};
+  mutable std::vector<std::atomic<Chunk*>> chunks_;
+  Builder* builder_ = nullptr;
+  Replay* replay_ = nullptr;
 };
 
 struct InverseList::Chunk {
+  struct Rest {
+    std::size_t terms = 0;
+    std::array<float, max_terms> variances;
+    std::atomic<const Exact*> exact{nullptr};
+  };
+
   detail::SampleRow rows[chunk_size];
   SequencePosition positions[chunk_size];
-  struct Cold {
-    std::size_t terms = 0;
-    std::vector<double> inverse, gain, border;
-    std::array<float, max_terms> variances;
-    std::unique_ptr<detail::BorderRow> border_row;
-  } cold[chunk_size];
+  Rest rest[chunk_size];
+
+  Chunk() = default;
+  Chunk(const Chunk&) = delete;
+  Chunk& operator=(const Chunk&) = delete;
+  ~Chunk();
 };
+
+// ------------------------------------------------------------------------------------ definitions
 
 inline const InverseList::Chunk& InverseList::chunk_of(std::size_t index) const {
   if (index >= size()) [[unlikely]] {
@@ -109,22 +116,17 @@ inline const SequencePosition& InverseList::position(std::size_t index) const {
   return chunk_of(index).positions[index % chunk_size];
 }
 inline std::size_t InverseList::terms(std::size_t index) const {
-  return chunk_of(index).cold[index % chunk_size].terms;
-}
-inline std::span<const double> InverseList::inverse(std::size_t index) const {
-  return chunk_of(index).cold[index % chunk_size].inverse;
-}
-inline std::span<const double> InverseList::gain(std::size_t index) const {
-  return chunk_of(index).cold[index % chunk_size].gain;
-}
-inline std::span<const double> InverseList::border(std::size_t index) const {
-  return chunk_of(index).cold[index % chunk_size].border;
+  return chunk_of(index).rest[index % chunk_size].terms;
 }
 inline std::span<const float, max_terms> InverseList::variances(std::size_t index) const {
-  return chunk_of(index).cold[index % chunk_size].variances;
+  return chunk_of(index).rest[index % chunk_size].variances;
 }
 inline const detail::SampleRow& InverseList::row(std::size_t index) const {
   return chunk_of(index).rows[index % chunk_size];
 }
 
 }  // namespace freqsynth
+
+#if defined(FREQSYNTH_HEADER_ONLY)
+#include "freqsynth/basis/inverse_list.inl"
+#endif

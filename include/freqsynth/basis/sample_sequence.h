@@ -36,13 +36,13 @@ struct SequencePosition {
 };
 
 /// The sequence itself: the same for the same seed, grown on demand. Not thread-safe while growing.
-class SampleSequence {
+class FREQSYNTH_API SampleSequence {
  public:
   explicit SampleSequence(std::uint64_t seed = 0) : seed_(seed) {}
 
   /// Position `index`; grows the sequence as far as needed (by whole levels, amortised O(1)). The
   /// reference is valid until the sequence grows again.
-  /// \throws std::invalid_argument when index >= max_size.
+  /// \throws std::invalid_argument when index >= max_size, std::bad_alloc; nothing has changed then.
   const SequencePosition& operator[](std::size_t index);
 
   /// Number of positions known so far.
@@ -54,6 +54,10 @@ class SampleSequence {
   [[nodiscard]] static constexpr std::size_t corner_at(bool right, bool bottom) {
     return right ? (bottom ? 1 : 2) : (bottom ? 3 : 0);
   }
+
+  /// Most positions of the block's own border that follow each other, partners included: so many
+  /// samples a block can get from its neighbours without one of its own.
+  static constexpr std::size_t longest_border_run = 6;
 
   /// Positions of the finest level that is kept: 1025 x 1025.
   static constexpr std::size_t max_size = std::size_t{1025} * 1025;
@@ -69,3 +73,7 @@ class SampleSequence {
 };
 
 }  // namespace freqsynth
+
+#if defined(FREQSYNTH_HEADER_ONLY)
+#include "freqsynth/basis/sample_sequence.inl"
+#endif

@@ -18,7 +18,7 @@ namespace freqsynth {
 class BlockQueue {
  public:
   /// Priority of a block that is out of the queue: below every other.
-  static constexpr float absent = -std::numeric_limits<float>::infinity();
+  static constexpr float absent = std::numeric_limits<float>::lowest();
 
   /// `blocks` blocks, all absent.
   explicit BlockQueue(std::size_t blocks = 0);

@@ -3,6 +3,7 @@
 /// wait until the neighbour's sequence reaches their index.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -20,6 +21,9 @@ namespace freqsynth {
 class EdgeCache {
  public:
   EdgeCache(const BlockGrid& grid, std::size_t channels);
+
+  /// Makes room, so that the next `more` calls of put() cannot fail.
+  void reserve(std::size_t more);
 
   /// Keeps the values of the point that is `position` for block (block_x, block_y), which will take
   /// it later. On a side, points must come in the order of their ranks; a corner may come again.
@@ -64,6 +68,15 @@ inline EdgeCache::EdgeCache(const BlockGrid& grid, std::size_t channels)
       edges_(2 * grid.blocks_x * grid.blocks_y),
       corner_values_((grid.blocks_x + 1) * (grid.blocks_y + 1) * channels),
       corner_known_((grid.blocks_x + 1) * (grid.blocks_y + 1)) {}
+
+inline void EdgeCache::reserve(std::size_t more) {
+  const std::size_t free_places = next_.size() - waiting_;
+  const std::size_t needed = next_.size() + (more > free_places ? more - free_places : 0);
+  if (needed > next_.capacity()) next_.reserve(std::max(needed, 2 * next_.capacity()));
+  if (needed * channels_ > pool_.capacity()) {
+    pool_.reserve(std::max(needed * channels_, 2 * pool_.capacity()));
+  }
+}
 
 inline EdgeCache::Edge& EdgeCache::edge_at(std::size_t block_x, std::size_t block_y,
                                            BlockSide side) {

@@ -1,11 +1,13 @@
 /// \file
 /// How `run` uses several threads: an executor runs independent tasks. The library itself starts no
-/// thread unless the host constructs a ThreadPool; a host with a pool of its own wraps that one.
+/// thread unless the host constructs a ThreadPool (thread_pool.h); a host with a pool of its own
+/// wraps that one.
 #pragma once
 
 #include <concepts>
 #include <cstddef>
-#include <memory>
+
+#include "freqsynth/basis/config.h"
 
 namespace freqsynth {
 
@@ -29,8 +31,9 @@ class TaskRef {
   void (*call_)(const void*, std::size_t);
 };
 
-/// Runs task(0) .. task(count - 1), in any order and on any threads, and returns when all are done.
-/// The tasks never throw. `concurrency()` is how many run at the same time at best.
+/// Runs task(0) .. task(count - 1), once each, in any order and on any threads, and returns when
+/// all are done. The tasks of Synthesizer::run() never throw. `concurrency()` is how many run at
+/// the same time at best. An executor that throws must not have a task still running then.
 template <class E>
 concept Executor = requires(E& executor, std::size_t count, TaskRef task) {
   executor.execute(count, task);
@@ -43,25 +46,6 @@ struct SerialExecutor {
     for (std::size_t i = 0; i < count; ++i) task(i);
   }
   static constexpr std::size_t concurrency() { return 1; }
-};
-
-/// A pool of threads that lives as long as the object. The calling thread works along.
-class ThreadPool {
- public:
-  /// \param threads how many work together, the caller included; 0: one per hardware thread
-  /// \throws std::invalid_argument when threads > 1024.
-  explicit ThreadPool(std::size_t threads = 0);
-  ~ThreadPool();
-  ThreadPool(const ThreadPool&) = delete;
-  ThreadPool& operator=(const ThreadPool&) = delete;
-
-  /// See Executor. One call at a time.
-  void execute(std::size_t count, TaskRef task);
-  [[nodiscard]] std::size_t concurrency() const;
-
- private:
-  struct State;
-  std::unique_ptr<State> state_;
 };
 
 }  // namespace freqsynth

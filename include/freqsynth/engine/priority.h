@@ -2,16 +2,17 @@
 /// The priority metric (paper, section 4.4): how much a block deserves the next sample.
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <stdexcept>
-#include <string>
+#include <limits>
 #include <vector>
 
 #include "freqsynth/basis/config.h"
 
 namespace freqsynth {
+
+/// Highest priority of a block that has a sample. One without is more urgent than any of them.
+inline constexpr float most_priority = std::numeric_limits<float>::max() / 2;
 
 /// How the change that a block's next sample will cause is estimated.
 enum class PriorityMeasure : std::uint8_t {
@@ -31,26 +32,25 @@ enum class PriorityMeasure : std::uint8_t {
 struct PrioritySettings {
   /// w, weight of the newest estimate, in (0, 1].
   double weight = 0.3;
-  /// U in units of the image's own variance, finite and >= 0, so that the signal's scale does not
-  /// matter.
+  /// U in units of the image's own variance, in 0..1e6, so that the signal's scale does not matter.
   double uncertainty = 1.0;
   /// r, decay of the uncertainty per sample, in [0, 1).
   double decay = 0.7165;
   PriorityMeasure measure = PriorityMeasure::residual;
-  /// How many samples of the block's own the mean residuals of the blocks beside it count for;
-  /// finite and >= 0.
+  /// How many samples of the block's own the mean residuals of the blocks beside it count for, in
+  /// 0..1e6.
   double neighbours = 16;
   /// The same for the mean residuals of all blocks, so that no block is ever taken for flat.
   double image = 1;
 
   /// \throws std::invalid_argument naming the field and the value when out of range.
-  void validate() const;
+  FREQSYNTH_API void validate() const;
 };
 
 /// The metric as a running value per block: the part that depends on the samples' values
 /// (variation) is kept by the caller, the part that depends on their number alone is tabulated
 /// here.
-class PriorityMetric {
+class FREQSYNTH_API PriorityMetric {
  public:
   /// \param max_samples  most samples that a block can get
   PriorityMetric(const PrioritySettings& settings, std::size_t max_samples);
@@ -77,6 +77,7 @@ class PriorityMetric {
 
   /// U_n for an image of that variance.
   [[nodiscard]] float uncertainty(std::size_t samples, float variance) const {
+    FREQSYNTH_ASSERT(samples < uncertainty_.size());
     return variance * uncertainty_[samples];
   }
 
@@ -88,34 +89,8 @@ class PriorityMetric {
   std::vector<float> uncertainty_;  // the running average of U r^n after n samples
 };
 
-// ------------------------------------------------------------------------------------ definitions
-
-inline void PrioritySettings::validate() const {
-  const auto check = [](bool good, const char* field, double value, const char* range) {
-    if (!good) {
-      throw std::invalid_argument("freqsynth: priority." + std::string(field) + " is " +
-                                  std::to_string(value) + ", not " + range);
-    }
-  };
-  check(weight > 0 && weight <= 1, "weight", weight, "in (0, 1]");
-  check(uncertainty >= 0 && std::isfinite(uncertainty), "uncertainty", uncertainty,
-        "a finite number >= 0");
-  check(neighbours >= 0 && std::isfinite(neighbours), "neighbours", neighbours,
-        "a finite number >= 0");
-  check(image >= 0 && std::isfinite(image), "image", image, "a finite number >= 0");
-  check(decay >= 0 && decay < 1, "decay", decay, "in [0, 1)");
-}
-
-inline PriorityMetric::PriorityMetric(const PrioritySettings& settings, std::size_t max_samples)
-    : weight_(static_cast<float>(settings.weight)), uncertainty_(max_samples + 1) {
-  settings.validate();
-  double running = settings.uncertainty;
-  double term = settings.uncertainty;
-  for (std::size_t n = 0; n <= max_samples; ++n) {
-    running += settings.weight * (term - running);
-    term *= settings.decay;
-    uncertainty_[n] = static_cast<float>(running) + floor(n);
-  }
-}
-
 }  // namespace freqsynth
+
+#if defined(FREQSYNTH_HEADER_ONLY)
+#include "freqsynth/engine/priority.inl"
+#endif

@@ -14,14 +14,13 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
-#include <memory>
 #include <span>
-#include <vector>
 
+#include "freqsynth/basis/aligned.h"
 #include "freqsynth/basis/config.h"
-#include "freqsynth/basis/inverse_list.h"
+#include "freqsynth/basis/shared_list.h"
 #include "freqsynth/image/butterworth.h"
+#include "freqsynth/refine/refiner.h"
 
 namespace freqsynth {
 
@@ -54,48 +53,41 @@ struct FinishSettings {
   }
 
   /// \throws std::invalid_argument naming the field and the value when out of range.
-  void validate() const;
+  FREQSYNTH_API void validate() const;
 };
 
 /// Finishes blocks, those with fewer samples first. What depends on positions alone, the sum over
 /// each pixel's samples of every term, is shared by all blocks with the same number of samples.
-class PixelFinisher {
+class FREQSYNTH_API PixelFinisher {
  public:
-  /// \throws std::invalid_argument when a setting is out of range or the list is null.
-  PixelFinisher(std::shared_ptr<const InverseList> list, const FinishSettings& settings);
+  /// \throws std::invalid_argument when a setting is out of range or there is no list.
+  PixelFinisher(SharedInverseList list, const FinishSettings& settings);
 
   /// Goes on to blocks with `samples` samples; not less than before.
   void advance(std::size_t samples);
 
   /// Coefficients of finished pixels (CoefficientMeaning::pixel_average).
-  /// \param coefficients  of the fit, F in zig-zag order
-  /// \param pixel_sums    LeastSquaresRefiner::pixel_sums() of the same block
-  /// \param residual      variance of its residuals
-  void finish(std::span<const float, max_terms> coefficients,
-              std::span<const float, max_terms> pixel_sums, float residual,
-              std::span<float, max_terms> out) const;
+  void finish(const BlockFit& fit, std::span<float, max_terms> out) const;
 
  private:
-  struct alignas(32) Row {
-    float values[max_terms];
-  };
-  void filter(std::span<const float, max_terms> coefficients, float residual,
-              std::span<float, max_terms> filtered) const;
-  double measured_doubt(std::span<const float, max_terms> coefficients,
-                        std::span<const float, max_terms> filtered, const Row& means,
-                        float residual) const;
-  void bound(std::span<const float, max_terms> pixel_sums, float residual,
-             std::span<float, max_terms> pixels) const;
+  void filter(const BlockFit& fit, std::span<float, max_terms> filtered) const;
+  double measured_doubt(const BlockFit& fit, std::span<const float, max_terms> filtered,
+                        const detail::AlignedBlock& means) const;
+  void bound(const BlockFit& fit, std::span<float, max_terms> pixels) const;
 
-  std::shared_ptr<const InverseList> list_;
+  SharedInverseList list_;
   FinishSettings settings_;
   std::size_t samples_ = 0;
   std::array<float, max_terms> box_;      // mean over a pixel of each term, relative to its centre
   std::array<float, max_terms> filter_;   // Butterworth factors
   std::array<float, max_terms> weights_;  // samples of each pixel
-  Row inverse_weights_;                   // 0 without samples
-  std::vector<Row>
-      sums_;  // [pixel][row-major term]: weighted sum of the term over the pixel's samples
+  detail::AlignedBlock inverse_weights_;  // 0 without samples
+  // [pixel][row-major term]: weighted sum of the term over the pixel's samples
+  detail::AlignedVector<float> sums_;
 };
 
 }  // namespace freqsynth
+
+#if defined(FREQSYNTH_HEADER_ONLY)
+#include "freqsynth/image/pixel_finisher.inl"
+#endif

@@ -4,11 +4,8 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <span>
-#include <stdexcept>
-#include <string>
 #include <vector>
 
 #include "freqsynth/basis/config.h"
@@ -22,8 +19,8 @@ struct QuantizationTarget {
   /// looked at, whatever the first samples say.
   static constexpr std::size_t least_samples = 25;
 
-  /// Per channel the step of each coefficient F in zig-zag order, > 0; infinity for one that is
-  /// dropped.
+  /// Per channel the step of each coefficient F in zig-zag order, at least 1e-15; infinity for one
+  /// that is dropped.
   std::vector<std::array<float, max_terms>> steps;
   /// A block is done when its expected squared error, in squared steps and summed over all
   /// channels, is at most this share of what the quantiser itself does to a block of which it keeps
@@ -37,17 +34,13 @@ struct QuantizationTarget {
   }
 
   /// \throws std::invalid_argument naming the field and the value when out of range.
-  void validate(std::size_t channels) const;
+  FREQSYNTH_API void validate(std::size_t channels) const;
 };
 
 /// Factor on the squared error that least squares expects of independent samples, for samples that
 /// are spread evenly over a function without noise: the error at an edge falls with n^(-3/2)
 /// instead of 1/n once there is more than a sample per pixel.
-[[nodiscard]] inline float evenness(std::size_t samples) {
-  constexpr std::size_t pixels = block_size * block_size;
-  return samples <= pixels ? 1
-                           : std::sqrt(static_cast<float>(pixels) / static_cast<float>(samples));
-}
+[[nodiscard]] FREQSYNTH_API float evenness(std::size_t samples);
 
 /// Expected squared error of a channel of a block, in squared steps, over those coefficients whose
 /// error may change the quantised value. A coefficient that is quantised to zero and stays there,
@@ -55,44 +48,13 @@ struct QuantizationTarget {
 /// \param coefficients  F, zig-zag, as they will be quantised (but for the level shift of F(0,0))
 /// \param variances     expected squared error of each per unit of `residual`
 /// \param residual      variance of the residuals of the fit
-[[nodiscard]] float quantized_error(const std::array<float, max_terms>& steps,
-                                    std::span<const float, max_terms> coefficients,
-                                    std::span<const float, max_terms> variances, float residual);
-
-// ------------------------------------------------------------------------------------ definitions
-
-inline void QuantizationTarget::validate(std::size_t channels) const {
-  if (steps.size() != channels) {
-    throw std::invalid_argument("freqsynth: the quantization target has steps for " +
-                                std::to_string(steps.size()) + " of " + std::to_string(channels) +
-                                " channels");
-  }
-  for (const auto& channel : steps) {
-    for (const float step : channel) {
-      if (!(step > 0)) {
-        throw std::invalid_argument("freqsynth: a quantization target's step is " +
-                                    std::to_string(step) + ", not > 0");
-      }
-    }
-  }
-  if (!(tolerance > 0 && std::isfinite(tolerance))) {
-    throw std::invalid_argument("freqsynth: the quantization target's tolerance is " +
-                                std::to_string(tolerance) + ", not a finite number > 0");
-  }
-}
-
-inline float quantized_error(const std::array<float, max_terms>& steps,
-                             std::span<const float, max_terms> coefficients,
-                             std::span<const float, max_terms> variances, float residual) {
-  float sum = 0;
-  for (std::size_t i = 0; i < max_terms; ++i) {
-    const float variance = residual * variances[i] / (steps[i] * steps[i]);
-    const float magnitude = std::abs(coefficients[i]) / steps[i];
-    const float margin = 0.5f - magnitude;  // to the nearest value that is not quantised to 0
-    const bool stays_zero = i > 0 && margin > 0 && margin * margin > 4 * variance;
-    sum += stays_zero ? 0 : variance;
-  }
-  return sum;
-}
+[[nodiscard]] FREQSYNTH_API float quantized_error(const std::array<float, max_terms>& steps,
+                                                  std::span<const float, max_terms> coefficients,
+                                                  std::span<const float, max_terms> variances,
+                                                  float residual);
 
 }  // namespace freqsynth
+
+#if defined(FREQSYNTH_HEADER_ONLY)
+#include "freqsynth/jpeg/quantization_target.inl"
+#endif

@@ -1,0 +1,313 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "freqsynth/basis/check.h"
+#include "freqsynth/basis/dct.h"
+#include "freqsynth/basis/float_bits.h"
+#include "freqsynth/basis/inverse_list.h"
+#include "freqsynth/basis/normal_inverse.h"
+
+namespace freqsynth {
+namespace detail {
+
+/// Pixel change per unit of amplitude change: by Parseval the mean squared change of the 64 pixels
+/// of a block is the sum of squares of these.
+inline double pixel_change(double amplitude, std::size_t term) {
+  return amplitude / (amplitude_of_coefficient(term) * std::sqrt(double{max_terms}));
+}
+
+/// The pixels of the block that a position lies in, or on the border of, in equal shares. Beyond
+/// the block's own border lie the neighbour's pixels, which get theirs there.
+inline void set_pixels(const SequencePosition& position, SampleRow& row) {
+  struct Touched {
+    std::size_t first = 0, count = 0;
+    float share = 1;
+  };
+  const auto touched = [](double s) {
+    const double x = s * block_size;
+    const double below = std::floor(x);
+    const auto pixel = static_cast<std::size_t>(below);
+    if (below != x) return Touched{pixel, 1, 1};
+    const std::size_t first = pixel > 0 ? pixel - 1 : 0;
+    const std::size_t end = pixel < block_size ? pixel + 1 : block_size;
+    return Touched{first, end - first, 0.5f};
+  };
+  const Touched columns = touched(position.s);
+  const Touched rows = touched(position.t);
+  row.pixel_weight = columns.share * rows.share;
+  row.pixel_count = 0;
+  for (std::size_t y = rows.first; y < rows.first + rows.count; ++y) {
+    for (std::size_t x = columns.first; x < columns.first + columns.count; ++x) {
+      row.pixels[row.pixel_count++] = static_cast<std::uint8_t>(y * block_size + x);
+    }
+  }
+}
+
+/// Expected energy of the terms when it falls with the third power of the frequency, as that of
+/// edges does.
+struct EdgeSpectrum {
+  std::array<double, max_terms> energy{};  // of each term but the constant one
+  std::array<double, max_terms> tail{};    // of it and of all frequencies that come later
+
+  EdgeSpectrum() {
+    constexpr std::size_t finest = 64;  // frequencies beyond hold next to nothing
+    const auto density = [](std::size_t u, std::size_t v) {
+      return std::pow(static_cast<double>(u * u + v * v), -1.5);
+    };
+    double rest = 0;
+    for (std::size_t v = 0; v < finest; ++v) {
+      for (std::size_t u = v == 0 ? 1 : 0; u < finest; ++u) rest += density(u, v);
+    }
+    for (std::size_t i = 1; i < max_terms; ++i) {
+      const Frequency f = frequency_of_term(i);
+      energy[i] = density(f.u, f.v);
+      tail[i] = rest;
+      rest -= energy[i];
+    }
+  }
+};
+
+inline const EdgeSpectrum& edge_spectrum() {
+  static const EdgeSpectrum spectrum;
+  return spectrum;
+}
+
+}  // namespace detail
+
+/// What an entry is in double.
+struct InverseList::Exact {
+  std::vector<double> inverse, gain, border;
+};
+
+FREQSYNTH_INLINE InverseList::Chunk::~Chunk() {
+  for (const Rest& one : rest) delete one.exact.load(std::memory_order_relaxed);
+  for (const detail::SampleRow& row : rows) delete row.border;
+}
+
+/// The state after the newest entry.
+struct InverseList::Builder {
+  explicit Builder(const InverseListSettings& settings)
+      : samples_per_term(settings.samples_per_term),
+        most_terms(settings.max_terms),
+        sequence(settings.seed) {}
+
+  void build(Chunk& chunk, std::size_t index);
+  void border(std::size_t terms, std::span<const double> gain, detail::SampleRow& row,
+              std::unique_ptr<detail::BorderRow> memory);
+  void set_variances(Chunk::Rest& rest) const;
+
+  double samples_per_term;
+  std::size_t most_terms;
+  std::mutex growing;
+  SampleSequence sequence;
+  NormalInverse normal;
+};
+
+/// Builds the next entry. What may throw comes first, so that an entry is built whole or not at
+/// all.
+FREQSYNTH_INLINE void InverseList::Builder::build(Chunk& chunk, std::size_t index) {
+  const std::size_t slot = index % chunk_size;
+  const SequencePosition position = sequence[index];
+  const double scheduled = 1 + std::floor(static_cast<double>(index) / samples_per_term);
+  const std::size_t terms = std::max<std::size_t>(normal.terms(), 1);
+  const bool term_is_due = terms < most_terms && static_cast<double>(terms) < scheduled;
+  auto memory = term_is_due ? std::make_unique<detail::BorderRow>() : nullptr;
+
+  chunk.positions[slot] = position;
+  std::array<double, max_terms> a, gain;
+  evaluate_terms(position.s, position.t, a);
+  normal.add_sample(a);
+  detail::multiply(normal.inverse().values.data(), a.data(), terms, gain.data());
+
+  detail::SampleRow& row = chunk.rows[slot];
+  detail::set_pixels(position, row);
+  row.terms = static_cast<std::uint32_t>(terms);
+  double change = 0;
+  for (std::size_t i = 0; i < max_terms; ++i) {
+    (i < terms ? row.fit : row.rest)[i] = static_cast<float>(a[i]);
+    if (i >= terms) continue;
+    row.gain[i] = static_cast<float>(gain[i]);
+    change += std::pow(detail::pixel_change(gain[i], i), 2);
+  }
+  row.change = static_cast<float>(change);
+  double fitted = 0;
+  for (std::size_t i = 0; i < terms; ++i) fitted += a[i] * gain[i];
+  row.residual = static_cast<float>(1 - fitted);
+
+  if (term_is_due) border(terms, gain, row, std::move(memory));
+  set_variances(chunk.rest[slot]);
+}
+
+/// Adds a term, if the samples determine it.
+FREQSYNTH_INLINE void InverseList::Builder::border(std::size_t terms, std::span<const double> gain,
+                                                   detail::SampleRow& row,
+                                                   std::unique_ptr<detail::BorderRow> memory) {
+  std::array<double, max_terms> steps;
+  const std::span<double> step = std::span(steps).first(terms);
+  const double delta = normal.add_term(step);
+  if (!(delta > 0)) return;
+  detail::BorderRow& border = *memory;
+  const double own = detail::pixel_change(1, terms);
+  double change = own * own;
+  double cross = 0;
+  for (std::size_t i = 0; i < terms; ++i) {
+    border.b[i] = static_cast<float>(normal.normal()(terms, i));
+    border.step[i] = static_cast<float>(step[i]);
+    const double moved = detail::pixel_change(step[i], i);
+    change += moved * moved;
+    cross += moved * detail::pixel_change(gain[i], i);
+  }
+  border.step[terms] = 1;
+  border.inverse_delta = static_cast<float>(1 / delta);
+  border.change = static_cast<float>(change);
+  border.cross = static_cast<float>(cross);
+  border.delta = static_cast<float>(delta);
+  row.border = memory.release();
+}
+
+FREQSYNTH_INLINE void InverseList::Builder::set_variances(Chunk::Rest& rest) const {
+  rest.terms = normal.terms();
+  const detail::EdgeSpectrum& spectrum = detail::edge_spectrum();
+  for (std::size_t i = 0; i < max_terms; ++i) {
+    // A term in the fit has the variance of least squares. One that is not is wrong by all that it
+    // holds, a share of what the fit leaves over.
+    rest.variances[i] = static_cast<float>(
+        i < rest.terms ? normal.inverse()(i, i) / std::pow(amplitude_of_coefficient(i), 2)
+                       : max_terms * spectrum.energy[i] / spectrum.tail[rest.terms]);
+  }
+}
+
+/// The same updates once more, for those who ask for J^-1 itself.
+struct InverseList::Replay {
+  std::mutex asking;
+  /// State before the first entry of each chunk that was passed. Entry 0 starts from nothing.
+  std::vector<std::unique_ptr<const NormalInverse>> states;
+  NormalInverse normal;  // before entry `next`
+  std::size_t next = 0;
+
+  void step(const Chunk& chunk, Exact* keep);
+};
+
+/// Goes on by one entry, which it writes to `keep` unless that is null; its vectors have room.
+FREQSYNTH_INLINE void InverseList::Replay::step(const Chunk& chunk, Exact* keep) {
+  const std::size_t slot = next % chunk_size;
+  std::array<double, max_terms> a, values;
+  evaluate_terms(chunk.positions[slot].s, chunk.positions[slot].t, a);
+  normal.add_sample(a);
+  std::size_t terms = normal.terms();
+  if (keep != nullptr) {
+    detail::multiply(normal.inverse().values.data(), a.data(), terms, values.data());
+    keep->gain.assign(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(terms));
+  }
+  if (chunk.rows[slot].border != nullptr) {
+    normal.add_term(std::span(values).first(terms));
+    if (keep != nullptr) {
+      keep->border.assign(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(terms));
+    }
+    ++terms;
+  }
+  ++next;
+  if (keep == nullptr) return;
+  const TermMatrix& inverse = normal.inverse();
+  for (std::size_t i = 0; i < terms; ++i) {
+    for (std::size_t j = 0; j <= i; ++j) {
+      keep->inverse.push_back(0.5 * (inverse(i, j) + inverse(j, i)));
+    }
+  }
+}
+
+FREQSYNTH_INLINE const InverseList::Exact& InverseList::exact(std::size_t index) const {
+  const Chunk& own = chunk_of(index);
+  std::atomic<const Exact*>& known =
+      chunks_[index / chunk_size].load(std::memory_order_relaxed)->rest[index % chunk_size].exact;
+  if (const Exact* entry = known.load(std::memory_order_acquire)) return *entry;
+
+  Replay& replay = *replay_;
+  const std::lock_guard lock(replay.asking);
+  if (const Exact* entry = known.load(std::memory_order_relaxed)) return *entry;
+  auto entry = std::make_unique<Exact>();
+  const std::size_t terms = own.rest[index % chunk_size].terms;
+  entry->inverse.reserve(terms * (terms + 1) / 2);
+  entry->gain.reserve(terms);
+  entry->border.reserve(terms);
+  // From the nearest state before it.
+  const std::size_t chunk = std::min(index / chunk_size, replay.states.size());
+  if (replay.next > index || replay.next < chunk * chunk_size) {
+    replay.normal = chunk == 0 ? NormalInverse() : *replay.states[chunk - 1];
+    replay.next = chunk * chunk_size;
+  }
+  while (replay.next <= index) {
+    const std::size_t at = replay.next;
+    if (at > 0 && at % chunk_size == 0 && replay.states.size() < at / chunk_size) {
+      replay.states.push_back(std::make_unique<const NormalInverse>(replay.normal));
+    }
+    replay.step(chunk_of(at), at == index ? entry.get() : nullptr);
+  }
+  known.store(entry.get(), std::memory_order_release);
+  return *entry.release();
+}
+
+FREQSYNTH_INLINE std::span<const double> InverseList::inverse(std::size_t index) const {
+  return exact(index).inverse;
+}
+FREQSYNTH_INLINE std::span<const double> InverseList::gain(std::size_t index) const {
+  return exact(index).gain;
+}
+FREQSYNTH_INLINE std::span<const double> InverseList::border(std::size_t index) const {
+  return exact(index).border;
+}
+
+FREQSYNTH_INLINE InverseList::InverseList(const InverseListSettings& settings)
+    : settings_(settings), chunks_((SampleSequence::max_size + chunk_size - 1) / chunk_size) {
+  const double rate = settings.samples_per_term;
+  detail::require(rate >= 1 && detail::is_finite(rate), "samples_per_term", rate,
+                  "a finite number of at least 1");
+  if (settings.max_terms == 0 || settings.max_terms > freqsynth::max_terms) {
+    detail::refuse("max_terms is " + std::to_string(settings.max_terms) + ", not in 1..64");
+  }
+  auto builder = std::make_unique<Builder>(settings);
+  replay_ = new Replay;
+  builder_ = builder.release();
+}
+
+FREQSYNTH_INLINE InverseList::~InverseList() {
+  for (const auto& chunk : chunks_) delete chunk.load(std::memory_order_relaxed);
+  delete replay_;
+  delete builder_;
+}
+
+FREQSYNTH_INLINE void InverseList::reserve(std::size_t count) const {
+  if (count > size()) grow(count);
+}
+
+FREQSYNTH_INLINE void InverseList::grow(std::size_t count) const {
+  // A count of 0 comes from the largest index there is, plus 1.
+  if (count == 0 || count > SampleSequence::max_size) {
+    detail::refuse("an inverse list of " + std::to_string(count) + " entries exceeds " +
+                   std::to_string(SampleSequence::max_size));
+  }
+  // A chunk at a time, so that others need not wait for the last one.
+  while (size() < count) {
+    const std::lock_guard lock(builder_->growing);
+    const std::size_t first = size();
+    const std::size_t end = std::min(count, (first / chunk_size + 1) * chunk_size);
+    auto& chunk = chunks_[first / chunk_size];
+    if (chunk.load(std::memory_order_relaxed) == nullptr) {
+      chunk.store(new Chunk, std::memory_order_relaxed);
+    }
+    for (std::size_t index = first; index < end; ++index) {
+      builder_->build(*chunk.load(std::memory_order_relaxed), index);
+      size_.store(index + 1, std::memory_order_release);
+    }
+  }
+}
+
+}  // namespace freqsynth

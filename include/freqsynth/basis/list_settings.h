@@ -1,0 +1,22 @@
+/// \file
+/// What a list of inverse matrices (inverse_list.h) depends on.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "freqsynth/basis/config.h"
+
+namespace freqsynth {
+
+struct InverseListSettings {
+  /// Samples per added term (paper, 4.2.1: two to three). At least 1; at low rates a term waits
+  /// until the samples determine it.
+  double samples_per_term = 2.5;
+  /// Largest number of terms, 1..64.
+  std::size_t max_terms = freqsynth::max_terms;
+  /// Seed of the sequence's random choices.
+  std::uint64_t seed = 0;
+};
+
+}  // namespace freqsynth

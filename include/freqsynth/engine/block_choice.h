@@ -1,0 +1,100 @@
+/// \file
+/// Which blocks are next (paper, section 4.4): the queue, kept in order by a measure.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "freqsynth/basis/config.h"
+#include "freqsynth/engine/block_measure.h"
+#include "freqsynth/engine/block_queue.h"
+#include "freqsynth/engine/block_set.h"
+#include "freqsynth/refine/refiner.h"
+
+namespace freqsynth {
+
+/// The blocks of an image in the order of their priorities.
+template <Refiner R, BlockMeasure<R> M>
+class BlockChoice {
+ public:
+  /// \param factors  factor on the priority of each block, finite and >= 0
+  BlockChoice(M measure, std::vector<float> factors);
+
+  /// Highest priority, BlockQueue::absent when no block is in the queue.
+  [[nodiscard]] float top_priority() const { return queue_.top_priority(); }
+  /// Takes the first block out of the queue; there is one.
+  std::uint32_t take();
+  /// Takes a block out of the queue.
+  void take(std::uint32_t block) { queue_.update(block, BlockQueue::absent); }
+  /// Whether more samples of a block are wanted at all.
+  [[nodiscard]] bool wanted(std::uint32_t block) const { return factors_[block] > 0; }
+
+  /// A block has taken in a sample, which changed it by `change`.
+  void absorbed(const BlockView<R>& view, std::uint32_t block, float change) {
+    measure_.absorbed(view, block, change);
+  }
+
+  /// Puts blocks where they belong after these samples, and those beside them that have to hear of
+  /// it.
+  /// \param always  blocks beside are told whether there is news or not
+  void revise(const BlockView<R>& view, const BlockSet& blocks, bool always);
+  /// Puts all blocks where they belong.
+  void revise_all(const BlockView<R>& view);
+
+ private:
+  [[nodiscard]] float priority_of(const BlockView<R>& view, std::uint32_t block) const;
+
+  M measure_;
+  std::vector<float> factors_;
+  BlockQueue queue_;
+};
+
+// ------------------------------------------------------------------------------------ definitions
+
+template <Refiner R, BlockMeasure<R> M>
+BlockChoice<R, M>::BlockChoice(M measure, std::vector<float> factors)
+    : measure_(std::move(measure)), factors_(std::move(factors)), queue_(factors_.size()) {}
+
+template <Refiner R, BlockMeasure<R> M>
+std::uint32_t BlockChoice<R, M>::take() {
+  const auto block = static_cast<std::uint32_t>(queue_.top());
+  take(block);
+  return block;
+}
+
+template <Refiner R, BlockMeasure<R> M>
+float BlockChoice<R, M>::priority_of(const BlockView<R>& view, std::uint32_t block) const {
+  if (view.blocks.samples(block) == 0) return std::numeric_limits<float>::max();
+  if (view.blocks.full(block)) return BlockQueue::absent;
+  if (!wanted(block)) return 0;
+  return std::min(measure_.priority(view, block, factors_[block]), most_priority);
+}
+
+template <Refiner R, BlockMeasure<R> M>
+void BlockChoice<R, M>::revise(const BlockView<R>& view, const BlockSet& blocks, bool always) {
+  for (const std::uint32_t block : blocks.members()) {
+    queue_.update(block, priority_of(view, block));
+  }
+  for (const std::uint32_t block : blocks.members()) {
+    if (!measure_.has_news(block) && !always) continue;
+    view.grid.visit_beside(block, [&](std::uint32_t other) {
+      if (blocks.contains(other) || !measure_.cares(queue_.priority(other))) return;
+      queue_.update(other, priority_of(view, other));
+    });
+  }
+}
+
+template <Refiner R, BlockMeasure<R> M>
+void BlockChoice<R, M>::revise_all(const BlockView<R>& view) {
+  for (std::size_t b = 0; b < queue_.size(); ++b) {
+    const auto block = static_cast<std::uint32_t>(b);
+    queue_.update(block, priority_of(view, block));
+  }
+}
+
+}  // namespace freqsynth

@@ -1,0 +1,161 @@
+/// \file
+/// How much a block deserves the next sample: the interface of a measure, and the measures of the
+/// paper (its change) and beyond it (its residuals). A third is in jpeg/quantizer_measure.h.
+#pragma once
+
+#include <algorithm>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "freqsynth/basis/config.h"
+#include "freqsynth/engine/block_grid.h"
+#include "freqsynth/engine/block_store.h"
+#include "freqsynth/engine/priority.h"
+#include "freqsynth/engine/signal_statistics.h"
+#include "freqsynth/refine/refiner.h"
+
+namespace freqsynth {
+
+/// What a measure may look at.
+template <Refiner R>
+struct BlockView {
+  const BlockGrid& grid;
+  const BlockStore<R>& blocks;
+  const SignalStatistics& signal;
+};
+
+/// A measure of blocks that R refines. It keeps what it needs to know of each block.
+template <class M, class R>
+concept BlockMeasure = requires(M& measure, const M& known, const BlockView<R>& view,
+                                std::uint32_t block, float value) {
+  /// A block has taken in a sample, which changed it by `value`.
+  { measure.absorbed(view, block, value) } -> std::same_as<void>;
+  /// Priority of a block that has had a sample, and is not full; `value` is a factor on it. 0 when
+  /// the block needs no more. Finite or not, but a number, and not negative.
+  { known.priority(view, block, value) } -> std::same_as<float>;
+  /// Whether the blocks beside this one have to be told that its residuals have grown.
+  { measure.has_news(block) } -> std::same_as<bool>;
+  /// Whether a block whose priority is `value` cares for news.
+  { known.cares(value) } -> std::same_as<bool>;
+};
+
+/// The paper's measure: from what the last samples have changed.
+class ChangeMeasure {
+ public:
+  ChangeMeasure(const PrioritySettings& settings, std::size_t blocks, std::size_t most_samples)
+      : metric_(settings, most_samples), variations_(blocks) {}
+
+  template <Refiner R>
+  void absorbed(const BlockView<R>&, std::uint32_t block, float change) {
+    variations_[block] = metric_.variation(variations_[block], std::min(change, most_priority));
+  }
+
+  template <Refiner R>
+  [[nodiscard]] float priority(const BlockView<R>& view, std::uint32_t block, float factor) const {
+    return factor *
+           metric_.priority(variations_[block], view.blocks.samples(block), view.signal.variance());
+  }
+
+  [[nodiscard]] static bool has_news(std::uint32_t) { return false; }
+  [[nodiscard]] static bool cares(float) { return false; }
+
+ private:
+  PriorityMetric metric_;
+  std::vector<float> variations_;
+};
+
+/// The residuals of all blocks, and what blocks know of those beside them.
+class ResidualBook {
+ public:
+  explicit ResidualBook(std::size_t blocks) : residuals_(blocks), told_(blocks) {}
+
+  /// A block has taken in a sample.
+  template <Refiner R>
+  void absorbed(const BlockView<R>& view, std::uint32_t block) {
+    const float residual = view.blocks.residual(block);
+    sum_ += double{residual} - double{residuals_[block]};
+    residuals_[block] = residual;
+  }
+
+  /// Variance of the residuals of a block, weighted over the channels.
+  [[nodiscard]] float of(std::uint32_t block) const { return residuals_[block]; }
+  /// The mean over all blocks.
+  [[nodiscard]] float mean() const {
+    return static_cast<float>(sum_ / static_cast<double>(residuals_.size()));
+  }
+
+  /// Whether the residuals of a block have grown by a quarter over what it told the others; from
+  /// then on they know. Blocks that get samples hear of their neighbours then, but those that wait
+  /// for long have to be told.
+  bool has_news(std::uint32_t block) {
+    const float residual = residuals_[block];
+    const bool more = residual > 1.25f * told_[block];
+    const bool less = residual < 0.5f * told_[block];
+    if (more || less) told_[block] = residual;
+    return more;
+  }
+
+  /// residual(block), a variance, pooled with that of the blocks beside it as `neighbours` samples,
+  /// and with the mean of all blocks as `image` samples.
+  template <Refiner R, class Residual>
+  [[nodiscard]] float pooled(const BlockView<R>& view, std::uint32_t block, Residual&& residual,
+                             float neighbours, float image) const {
+    float weight = view.blocks.freedom(block);
+    float sum = weight * residual(block);
+    float beside = 0, blocks = 0;
+    view.grid.visit_beside(block, [&](std::uint32_t other) {
+      beside += residual(other);
+      ++blocks;
+    });
+    if (blocks > 0) {
+      sum += neighbours * beside / blocks;
+      weight += neighbours;
+    }
+    sum += image * mean();
+    return sum / (weight + image);
+  }
+
+ private:
+  std::vector<float> residuals_;
+  std::vector<float> told_;
+  double sum_ = 0;
+};
+
+/// From the residuals of all samples of a block, of those beside it and of the whole image; see
+/// PriorityMeasure::residual.
+class ResidualMeasure {
+ public:
+  ResidualMeasure(const PrioritySettings& settings, std::size_t blocks, std::size_t most_samples)
+      : metric_(settings, most_samples),
+        neighbours_(static_cast<float>(settings.neighbours)),
+        image_(static_cast<float>(settings.image)),
+        book_(blocks) {}
+
+  template <Refiner R>
+  void absorbed(const BlockView<R>& view, std::uint32_t block, float) {
+    book_.absorbed(view, block);
+  }
+
+  template <Refiner R>
+  [[nodiscard]] float priority(const BlockView<R>& view, std::uint32_t block, float factor) const {
+    const std::uint32_t samples = view.blocks.samples(block);
+    const float residual =
+        view.signal.rounding() +
+        book_.pooled(
+            view, block, [&](std::uint32_t b) { return book_.of(b); }, neighbours_, image_);
+    return factor * metric_.expected_change(residual, samples, view.blocks.refiner().terms(samples),
+                                            view.signal.variance());
+  }
+
+  [[nodiscard]] bool has_news(std::uint32_t block) { return book_.has_news(block); }
+  [[nodiscard]] static bool cares(float) { return true; }
+
+ private:
+  PriorityMetric metric_;
+  float neighbours_, image_;
+  ResidualBook book_;
+};
+
+}  // namespace freqsynth

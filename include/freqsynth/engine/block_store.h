@@ -1,0 +1,95 @@
+/// \file
+/// What is known of each block: its refiner's state and how many samples it has had.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "freqsynth/basis/aligned.h"
+#include "freqsynth/basis/config.h"
+#include "freqsynth/refine/refiner.h"
+
+namespace freqsynth {
+
+/// The blocks of one image, all refined by the same refiner.
+template <Refiner R>
+class BlockStore {
+ public:
+  /// \param most_samples  samples that a block may have, at least 1
+  BlockStore(R refiner, std::size_t blocks, std::size_t most_samples);
+
+  [[nodiscard]] const R& refiner() const { return refiner_; }
+  [[nodiscard]] std::size_t size() const { return counts_.size(); }
+  /// Samples that a block has had. Its next one has this index in the sequence.
+  [[nodiscard]] std::uint32_t samples(std::size_t block) const { return counts_[block]; }
+  /// Whether a block may not have another sample.
+  [[nodiscard]] bool full(std::size_t block) const { return counts_[block] >= most_samples_; }
+  [[nodiscard]] std::size_t most_samples() const { return most_samples_; }
+  /// Number of blocks without a sample.
+  [[nodiscard]] std::size_t untouched() const { return untouched_; }
+  /// Samples of the block that has the most.
+  [[nodiscard]] std::size_t largest() const { return largest_; }
+
+  /// Takes in the next sample of a block that is not full. \return the refiner's measure of change.
+  float absorb(std::size_t block, const float* values);
+  /// Hints that sample `index` of a block will be absorbed soon.
+  void prefetch(std::size_t block, std::size_t index) const {
+    refiner_.prefetch(state(block), index);
+  }
+
+  // What the refiner says of a block; see the concept.
+  [[nodiscard]] float freedom(std::size_t block) const { return refiner_.freedom(counts_[block]); }
+  [[nodiscard]] float residual(std::size_t block) const {
+    return refiner_.residual(state(block), counts_[block]);
+  }
+  [[nodiscard]] float residual(std::size_t block, std::size_t channel) const {
+    return refiner_.residual(state(block), counts_[block], channel);
+  }
+  void coefficients(std::size_t block, std::size_t channel, std::span<float, max_terms> out) const {
+    refiner_.coefficients(state(block), counts_[block], channel, out);
+  }
+  [[nodiscard]] BlockFit fit(std::size_t block, std::size_t channel) const {
+    return refiner_.fit(state(block), counts_[block], channel);
+  }
+
+ private:
+  [[nodiscard]] const float* state(std::size_t block) const {
+    return states_.data() + block * stride_;
+  }
+
+  R refiner_;
+  std::size_t most_samples_;
+  std::size_t stride_;  // whole cache lines
+  detail::AlignedVector<float> states_;
+  std::vector<std::uint32_t> counts_;
+  std::size_t untouched_;
+  std::size_t largest_ = 0;
+};
+
+// ------------------------------------------------------------------------------------ definitions
+
+template <Refiner R>
+BlockStore<R>::BlockStore(R refiner, std::size_t blocks, std::size_t most_samples)
+    : refiner_(std::move(refiner)), most_samples_(most_samples), counts_(blocks) {
+  constexpr std::size_t line = detail::alignment / sizeof(float);
+  stride_ = (refiner_.state_size() + line - 1) / line * line;
+  states_.resize(blocks * stride_);
+  untouched_ = blocks;
+  for (std::size_t b = 0; b < blocks; ++b) refiner_.reset(states_.data() + b * stride_);
+}
+
+template <Refiner R>
+float BlockStore<R>::absorb(std::size_t block, const float* values) {
+  FREQSYNTH_ASSERT(!full(block));
+  std::uint32_t& count = counts_[block];
+  if (count == 0) --untouched_;
+  const float change = refiner_.absorb(states_.data() + block * stride_, count, values);
+  ++count;
+  largest_ = std::max<std::size_t>(largest_, count);
+  return change;
+}
+
+}  // namespace freqsynth

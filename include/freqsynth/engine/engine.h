@@ -1,0 +1,118 @@
+/// \file
+/// The engine (paper, section 4): chooses positions, takes values, refines blocks. It is made of
+/// parts that can be used alone: the grid, the store of blocks, the cache of border samples, the
+/// wave, the signal's statistics and the choice of blocks.
+///
+/// It knows neither what estimates a block (a Refiner) nor what makes a block worth a sample (a
+/// BlockMeasure), and nothing of images. Hosts use it through Synthesizer.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "freqsynth/basis/check.h"
+#include "freqsynth/basis/config.h"
+#include "freqsynth/engine/block_choice.h"
+#include "freqsynth/engine/block_grid.h"
+#include "freqsynth/engine/block_measure.h"
+#include "freqsynth/engine/block_set.h"
+#include "freqsynth/engine/block_store.h"
+#include "freqsynth/engine/edge_cache.h"
+#include "freqsynth/engine/signal_statistics.h"
+#include "freqsynth/engine/stop_rule.h"
+#include "freqsynth/engine/wave.h"
+#include "freqsynth/refine/refiner.h"
+#include "freqsynth/sampler.h"
+
+namespace freqsynth {
+
+/// All members may be called from any thread. Each does all that it says or, when it throws,
+/// nothing: what was delivered is never lost.
+template <Refiner R, BlockMeasure<R> M>
+class Engine {
+ public:
+  /// \param factors      factor on the priority of each block of the grid
+  /// \param wave         most blocks of a wave; 0: 1/32 of all blocks
+  Engine(const BlockGrid& grid, BlockStore<R> blocks, M measure, std::vector<float> factors,
+         std::size_t wave);
+
+  /// Sets when request() stops, from the next wave on. \throws like StopRule::validate().
+  void set_stop(const StopRule& stop);
+  /// Hands out up to out.size() positions. \throws std::bad_alloc, and nothing is handed out.
+  std::size_t request(std::span<Request> out);
+  /// Takes values. \throws std::invalid_argument, and none is taken.
+  void deliver(std::span<const Request> requests, std::span<const float> values);
+  /// Takes requests back without values. \throws std::invalid_argument, and none is taken.
+  void give_back(std::span<const Request> requests);
+  /// Why nothing is handed out. \throws std::bad_alloc.
+  std::optional<StopReason> stopped();
+
+  /// Share of the allowed samples that is there, 0 without a limit.
+  [[nodiscard]] double progress() const;
+  /// Most positions that request() hands out before values have to come back.
+  [[nodiscard]] std::size_t wave_size() const { return wave_size_; }
+  [[nodiscard]] SynthesisStats stats() const;
+  [[nodiscard]] std::vector<BadSample> bad_samples() const;
+
+  /// Calls read(grid, blocks) with the blocks after the last complete wave, which stay as they are
+  /// meanwhile.
+  template <class Read>
+  auto read(Read&& read) const {
+    const std::lock_guard lock(mutex_);
+    return read(grid_, blocks_);
+  }
+
+ private:
+  static constexpr std::size_t most_bad_reported = 1000;
+  /// A sampler that has never had a usable value, in every block and in so many samples, is not
+  /// asked for more, unless a stop rule is set anew.
+  static constexpr std::uint64_t unusable_at_most = 64;
+
+  // All of these run under the lock.
+  [[nodiscard]] BlockView<R> view() const { return {grid_, blocks_, signal_}; }
+  [[nodiscard]] const SequencePosition& position(std::size_t index) const {
+    return blocks_.refiner().list().position(index);
+  }
+  std::optional<StopReason> prepare_wave();
+  void reserve(std::size_t most);
+  void choose(std::uint32_t block);
+  void choose_least_sampled(std::size_t most);
+  [[nodiscard]] StopReason reason(StopReason why) const;
+  [[nodiscard]] bool asked_by_neighbour(std::uint32_t block, std::uint32_t index) const;
+  [[nodiscard]] Request make_request(std::uint32_t slot) const;
+  void claim(std::span<const Request> requests);
+  void finish_wave();
+  void route(const Wave::Slot& slot, const float* values);
+  void note(const Wave::Slot& slot, const float* values);
+  void absorb(std::uint32_t block, const float* values);
+  void advance(std::uint32_t block);
+
+  BlockGrid grid_;
+  BlockStore<R> blocks_;
+  EdgeCache cache_;
+  SignalStatistics signal_;
+  BlockChoice<R, M> choice_;
+  Wave wave_;
+  BlockSet touched_;  // blocks that the wave asks for, or that it has changed
+  std::size_t wave_size_;
+  StopRule stop_;
+  SynthesisStats stats_;
+  bool any_usable_ = false;  // whether there was a usable value
+  std::uint64_t patience_ = unusable_at_most;
+  std::vector<BadSample> bad_;
+  mutable std::mutex mutex_;
+};
+
+}  // namespace freqsynth
+
+#include "freqsynth/engine/engine.inl"

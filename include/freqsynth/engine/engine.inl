@@ -1,0 +1,262 @@
+#pragma once
+
+#include "freqsynth/engine/engine.h"
+
+namespace freqsynth {
+
+template <Refiner R, BlockMeasure<R> M>
+Engine<R, M>::Engine(const BlockGrid& grid, BlockStore<R> blocks, M measure,
+                     std::vector<float> factors, std::size_t wave)
+    : grid_(grid),
+      blocks_(std::move(blocks)),
+      cache_(grid, blocks_.refiner().channels()),
+      signal_(blocks_.refiner().channels()),
+      choice_(std::move(measure), std::move(factors)),
+      wave_(blocks_.refiner().channels()),
+      touched_(grid.size()) {
+  const std::size_t most = std::max<std::size_t>(grid.size(), 1);
+  wave_size_ = wave != 0 ? std::min(wave, most) : std::max<std::size_t>(most / 32, 1);
+  stats_.blocks = grid.size();
+  choice_.revise_all(view());
+}
+
+template <Refiner R, BlockMeasure<R> M>
+void Engine<R, M>::set_stop(const StopRule& stop) {
+  stop.validate();
+  const std::lock_guard lock(mutex_);
+  stop_ = stop;
+  stop_.samples = stop.most_samples(grid_.width, grid_.height);
+  patience_ = stats_.samples + unusable_at_most;
+}
+
+template <Refiner R, BlockMeasure<R> M>
+std::size_t Engine<R, M>::request(std::span<Request> out) {
+  const std::lock_guard lock(mutex_);
+  if (wave_.empty() && prepare_wave()) return 0;
+  std::size_t count = 0;
+  while (count < out.size() && wave_.waiting()) out[count++] = make_request(wave_.hand_out());
+  return count;
+}
+
+template <Refiner R, BlockMeasure<R> M>
+std::optional<StopReason> Engine<R, M>::stopped() {
+  const std::lock_guard lock(mutex_);
+  if (wave_.empty()) return prepare_wave();
+  return wave_.waiting() ? std::nullopt : std::optional(StopReason::waiting);
+}
+
+/// Chooses the blocks of the next wave. \return why there is none
+template <Refiner R, BlockMeasure<R> M>
+std::optional<StopReason> Engine<R, M>::prepare_wave() {
+  if (stats_.samples >= stop_.samples) return reason(StopReason::samples);
+  if (!any_usable_ && blocks_.untouched() == 0 && stats_.samples >= patience_) {
+    return reason(StopReason::exhausted);
+  }
+  const std::size_t most = std::min<std::uint64_t>(wave_size_, stop_.samples - stats_.samples);
+  reserve(most);
+  const auto threshold = static_cast<float>(
+      std::min(stop_.aliasing_threshold * stop_.aliasing_threshold, double{most_priority}));
+  while (wave_.size() < most && choice_.top_priority() > threshold) choose(choice_.take());
+  if (!wave_.empty()) return std::nullopt;
+  if (choice_.top_priority() < 0) return reason(StopReason::exhausted);
+  if (stop_.aliasing_threshold > 0) choose_least_sampled(most);
+  return wave_.empty() ? std::optional(reason(StopReason::threshold)) : std::nullopt;
+}
+
+/// Takes all memory that a wave of `most` positions needs until its values are absorbed, so that
+/// nothing can fail on the way.
+template <Refiner R, BlockMeasure<R> M>
+void Engine<R, M>::reserve(std::size_t most) {
+  wave_.reserve(most);
+  cache_.reserve(most);
+  bad_.reserve(std::min(bad_.size() + most, most_bad_reported));
+  // With its own sample a block may take in what its neighbours know before and after it.
+  const std::size_t reach = 2 * SampleSequence::longest_border_run + 2;
+  blocks_.refiner().list().reserve(std::min(blocks_.largest() + reach, blocks_.most_samples()));
+}
+
+template <Refiner R, BlockMeasure<R> M>
+void Engine<R, M>::choose(std::uint32_t block) {
+  const std::uint32_t index = blocks_.samples(block);
+  if (!asked_by_neighbour(block, index)) wave_.add({block, index});
+  touched_.add(block);
+}
+
+/// Chooses blocks that the threshold may not pass over yet.
+template <Refiner R, BlockMeasure<R> M>
+void Engine<R, M>::choose_least_sampled(std::size_t most) {
+  for (std::uint32_t block = 0; block < blocks_.size() && wave_.size() < most; ++block) {
+    if (blocks_.samples(block) >= stop_.least_samples) continue;
+    if (blocks_.full(block) || !choice_.wanted(block)) continue;
+    choice_.take(block);
+    choose(block);
+  }
+}
+
+/// Without a usable value no end is a good one.
+template <Refiner R, BlockMeasure<R> M>
+StopReason Engine<R, M>::reason(StopReason why) const {
+  return stats_.samples > 0 && !any_usable_ ? StopReason::unusable : why;
+}
+
+template <Refiner R, BlockMeasure<R> M>
+bool Engine<R, M>::asked_by_neighbour(std::uint32_t block, std::uint32_t index) const {
+  bool asked = false;
+  grid_.visit_sharing(block, position(index), [&](std::uint32_t other, std::uint32_t other_index) {
+    asked = asked || (touched_.contains(other) && blocks_.samples(other) == other_index);
+  });
+  return asked;
+}
+
+template <Refiner R, BlockMeasure<R> M>
+Request Engine<R, M>::make_request(std::uint32_t slot) const {
+  const auto [block, index] = wave_.slot(slot);
+  const SequencePosition& place = position(index);
+  const BlockGrid::Point point = grid_.point(block, place);
+  return {point.x, point.y, grid_.name(block, index, place), place.spacing * block_size, slot};
+}
+
+/// Claims the slots of all requests. \throws std::invalid_argument, and none is claimed.
+template <Refiner R, BlockMeasure<R> M>
+void Engine<R, M>::claim(std::span<const Request> requests) {
+  for (std::size_t i = 0; i < requests.size(); ++i) {
+    const Request& request = requests[i];
+    if (wave_.owed(request.slot) && make_request(request.slot).id == request.id) {
+      wave_.claim(request.slot);
+      continue;
+    }
+    for (const Request& before : requests.first(i)) wave_.let_go(before.slot);
+    detail::refuse("request " + std::to_string(request.id) + " is not owed");
+  }
+}
+
+template <Refiner R, BlockMeasure<R> M>
+void Engine<R, M>::deliver(std::span<const Request> requests, std::span<const float> values) {
+  const std::size_t channels = blocks_.refiner().channels();
+  if (values.size() != requests.size() * channels) {
+    detail::refuse(std::to_string(values.size()) + " values for " +
+                   std::to_string(requests.size()) + " requests of " + std::to_string(channels) +
+                   " channels");
+  }
+  const std::lock_guard lock(mutex_);
+  claim(requests);
+  for (std::size_t i = 0; i < requests.size(); ++i) {
+    wave_.deliver(requests[i].slot, values.data() + i * channels);
+  }
+  if (wave_.complete()) finish_wave();
+}
+
+template <Refiner R, BlockMeasure<R> M>
+void Engine<R, M>::give_back(std::span<const Request> requests) {
+  const std::lock_guard lock(mutex_);
+  claim(requests);
+  for (const Request& request : requests) wave_.recall(request.slot);
+}
+
+/// Takes in a complete wave. Nothing in it throws; see reserve().
+template <Refiner R, BlockMeasure<R> M>
+void Engine<R, M>::finish_wave() {
+  // The states of blocks lie all over the memory: fetch those that come soon.
+  constexpr std::size_t ahead = 6;
+  for (std::size_t i = 0; i < wave_.size(); ++i) {
+    if (i + ahead < wave_.size()) {
+      const auto [block, index] = wave_.slot(i + ahead);
+      blocks_.prefetch(block, index);
+    }
+    note(wave_.slot(i), wave_.values(i));
+    route(wave_.slot(i), wave_.values(i));
+  }
+  stats_.samples += wave_.size();
+  ++stats_.waves;
+  wave_.clear();
+  if (blocks_.untouched() == 0 && signal_.variance() == 0) {
+    signal_.settle(blocks_.refiner().weights());
+    choice_.revise_all(view());
+  } else {
+    choice_.revise(view(), touched_, wave_size_ == 1);
+  }
+  touched_.clear();
+}
+
+/// Looks at a sample as such.
+template <Refiner R, BlockMeasure<R> M>
+void Engine<R, M>::note(const Wave::Slot& slot, const float* values) {
+  const std::size_t channels = blocks_.refiner().channels();
+  const SequencePosition& place = position(slot.index);
+  std::size_t usable = 0;
+  for (std::size_t c = 0; c < channels; ++c) usable += is_usable_sample(values[c]) ? 1 : 0;
+  any_usable_ = any_usable_ || usable > 0;
+  if (usable == channels) {
+    if (place.side == BlockSide::corner) signal_.add(values);
+    return;
+  }
+  ++stats_.bad_samples;
+  if (bad_.size() < most_bad_reported) {
+    const BlockGrid::Point point = grid_.point(slot.block, place);
+    bad_.push_back({point.x, point.y, grid_.name(slot.block, slot.index, place)});
+  }
+}
+
+/// Gives a sample to all blocks that it belongs to: now to those that it is the next one of, later
+/// to the others.
+template <Refiner R, BlockMeasure<R> M>
+void Engine<R, M>::route(const Wave::Slot& slot, const float* values) {
+  const std::size_t channels = blocks_.refiner().channels();
+  std::array<std::uint32_t, 4> absorbing{slot.block};
+  std::size_t count = 1;
+  absorb(slot.block, values);
+  grid_.visit_sharing(
+      slot.block, position(slot.index), [&](std::uint32_t other, std::uint32_t index) {
+        if (index >= blocks_.most_samples()) return;
+        if (blocks_.samples(other) == index) {
+          absorb(other, values);
+          absorbing[count++] = other;
+        } else {
+          cache_.put(grid_.column(other), grid_.row(other), position(index), {values, channels});
+        }
+      });
+  for (std::size_t i = 0; i < count; ++i) advance(absorbing[i]);
+}
+
+template <Refiner R, BlockMeasure<R> M>
+void Engine<R, M>::absorb(std::uint32_t block, const float* values) {
+  const float change = blocks_.absorb(block, values);
+  choice_.absorbed(view(), block, change);
+  ++stats_.absorbed;
+  touched_.add(block);
+}
+
+/// Lets a block take in what is known of its next samples.
+template <Refiner R, BlockMeasure<R> M>
+void Engine<R, M>::advance(std::uint32_t block) {
+  while (!blocks_.full(block)) {
+    const float* values =
+        cache_.take(grid_.column(block), grid_.row(block), position(blocks_.samples(block)));
+    if (values == nullptr) return;
+    absorb(block, values);
+  }
+}
+
+template <Refiner R, BlockMeasure<R> M>
+double Engine<R, M>::progress() const {
+  const std::lock_guard lock(mutex_);
+  if (stop_.samples == std::numeric_limits<std::uint64_t>::max() || stop_.samples == 0) return 0;
+  const auto samples = static_cast<double>(stats_.samples + wave_.delivered());
+  return samples / static_cast<double>(stop_.samples);
+}
+
+template <Refiner R, BlockMeasure<R> M>
+SynthesisStats Engine<R, M>::stats() const {
+  const std::lock_guard lock(mutex_);
+  SynthesisStats stats = stats_;
+  stats.samples += wave_.delivered();
+  return stats;
+}
+
+template <Refiner R, BlockMeasure<R> M>
+std::vector<BadSample> Engine<R, M>::bad_samples() const {
+  const std::lock_guard lock(mutex_);
+  return bad_;
+}
+
+}  // namespace freqsynth

@@ -1,0 +1,38 @@
+#pragma once
+
+#include "freqsynth/basis/check.h"
+#include "freqsynth/basis/float_bits.h"
+#include "freqsynth/engine/priority.h"
+
+namespace freqsynth {
+
+FREQSYNTH_INLINE void PrioritySettings::validate() const {
+  // The ends of the ranges keep products with variances within what a float can say.
+  constexpr double most = 1e6;
+  const auto up_to_most = [](double value, const char* name) {
+    detail::require(detail::is_finite(value) && value >= 0 && value <= most, name, value,
+                    "in 0..1e6");
+  };
+  detail::require(detail::is_finite(weight) && weight > 0 && weight <= 1, "priority.weight", weight,
+                  "in (0, 1]");
+  up_to_most(uncertainty, "priority.uncertainty");
+  up_to_most(neighbours, "priority.neighbours");
+  up_to_most(image, "priority.image");
+  detail::require(detail::is_finite(decay) && decay >= 0 && decay < 1, "priority.decay", decay,
+                  "in [0, 1)");
+}
+
+FREQSYNTH_INLINE PriorityMetric::PriorityMetric(const PrioritySettings& settings,
+                                                std::size_t max_samples)
+    : weight_(static_cast<float>(settings.weight)), uncertainty_(max_samples + 1) {
+  settings.validate();
+  double running = settings.uncertainty;
+  double term = settings.uncertainty;
+  for (std::size_t n = 0; n <= max_samples; ++n) {
+    running += settings.weight * (term - running);
+    term *= settings.decay;
+    uncertainty_[n] = static_cast<float>(running) + floor(n);
+  }
+}
+
+}  // namespace freqsynth

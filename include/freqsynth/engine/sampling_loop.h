@@ -1,0 +1,96 @@
+/// \file
+/// The loop that takes requests from an engine and lets a sampler answer them: what
+/// Synthesizer::run() does once it no longer needs to know the types of sampler, executor and
+/// callback.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <type_traits>
+
+#include "freqsynth/basis/config.h"
+#include "freqsynth/engine/executor.h"
+#include "freqsynth/engine/stop_rule.h"
+#include "freqsynth/sampler.h"
+
+namespace freqsynth::detail {
+
+/// What a reference can be taken of: a function's pointer, and anything else itself.
+template <class T>
+constexpr decltype(auto) as_object(T& callable) {
+  if constexpr (std::is_function_v<T>) {
+    return &callable;
+  } else {
+    return (callable);
+  }
+}
+
+/// A reference to a sampler; must not outlive it.
+class SamplerRef {
+ public:
+  /// \param channels  of the image
+  template <class S>
+  SamplerRef(S& sampler, std::size_t channels)
+      : sampler_(const_cast<void*>(static_cast<const void*>(&sampler))),
+        call_(&call<S>),
+        channels_(sampler_channels<S>(channels)) {}
+
+  /// See call_sampler().
+  void operator()(std::span<const Request> requests, std::span<float> values,
+                  std::size_t& done) const {
+    call_(sampler_, requests, values, done);
+  }
+  /// Values per sample.
+  [[nodiscard]] std::size_t channels() const { return channels_; }
+
+ private:
+  template <class S>
+  static void call(void* sampler, std::span<const Request> requests, std::span<float> values,
+                   std::size_t& done) {
+    call_sampler(*static_cast<S*>(sampler), requests, values, done);
+  }
+
+  void* sampler_;
+  void (*call_)(void*, std::span<const Request>, std::span<float>, std::size_t&);
+  std::size_t channels_;
+};
+
+/// A reference to an executor.
+class ExecutorRef {
+ public:
+  template <Executor E>
+  explicit ExecutorRef(E& executor)
+      : executor_(const_cast<void*>(static_cast<const void*>(&executor))),
+        execute_([](void* object, std::size_t count, TaskRef task) {
+          static_cast<E*>(object)->execute(count, task);
+        }),
+        concurrency_(
+            [](void* object) -> std::size_t { return static_cast<E*>(object)->concurrency(); }) {}
+
+  void execute(std::size_t count, TaskRef task) const { execute_(executor_, count, task); }
+  [[nodiscard]] std::size_t concurrency() const { return concurrency_(executor_); }
+
+ private:
+  void* executor_;
+  void (*execute_)(void*, std::size_t, TaskRef);
+  std::size_t (*concurrency_)(void*);
+};
+
+/// A reference to a progress callback.
+class ProgressRef {
+ public:
+  template <class P>
+  explicit ProgressRef(P& progress)
+      : progress_(const_cast<void*>(static_cast<const void*>(&progress))),
+        call_(
+            [](void* object, double share) -> bool { return (*static_cast<P*>(object))(share); }) {}
+
+  /// Whether to go on.
+  bool operator()(double share) const { return call_(progress_, share); }
+
+ private:
+  void* progress_;
+  bool (*call_)(void*, double);
+};
+
+}  // namespace freqsynth::detail

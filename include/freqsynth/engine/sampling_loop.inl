@@ -1,0 +1,157 @@
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <exception>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "freqsynth/basis/check.h"
+#include "freqsynth/engine/sampling_loop.h"
+
+// Ending a thread from outside unwinds its stack by an exception that may not be swallowed.
+#if defined(__GLIBCXX__) && defined(__linux__)
+#include <cxxabi.h>
+#define FREQSYNTH_RETHROW_CANCELLATION \
+  catch (abi::__forced_unwind&) {      \
+    throw;                             \
+  }
+#else
+#define FREQSYNTH_RETHROW_CANCELLATION
+#endif
+
+namespace freqsynth::detail {
+
+/// Requests on their way through the sampler, in parts for several threads. Whatever happens, what
+/// the sampler answered is delivered and the rest is given back.
+/// \tparam E  has request(), deliver() and give_back(), like Engine
+template <class E>
+class Batch {
+ public:
+  Batch(E& engine, std::size_t channels, std::size_t most, std::size_t most_parts)
+      : engine_(engine),
+        channels_(channels),
+        requests_(most),
+        values_(most * channels),
+        parts_(std::max<std::size_t>(most_parts, 1)) {}
+  Batch(const Batch&) = delete;
+  Batch& operator=(const Batch&) = delete;
+  ~Batch() { settle(); }
+
+  /// Asks for requests. \return how many parts they make
+  std::size_t fill() {
+    count_ = engine_.request(requests_);
+    part_count_ = std::min(count_, parts_.size());
+    for (std::size_t i = 0; i < part_count_; ++i) {
+      parts_[i].begun.store(false, std::memory_order_relaxed);
+      parts_[i].done = 0;
+      parts_[i].error = nullptr;
+    }
+    return part_count_;
+  }
+
+  /// Lets the sampler answer a part. A part that was begun before, or is none, is left alone.
+  void answer(const SamplerRef& sampler, std::size_t index) {
+    if (index >= part_count_ || parts_[index].begun.exchange(true)) return;
+    const std::size_t first = first_of(index);
+    const std::size_t size = first_of(index + 1) - first;
+    try {
+      sampler(std::span<const Request>(requests_).subspan(first, size),
+              std::span<float>(values_).subspan(first * channels_, size * channels_),
+              parts_[index].done);
+    }
+    FREQSYNTH_RETHROW_CANCELLATION
+    catch (...) {
+      parts_[index].error = std::current_exception();
+    }
+  }
+
+  /// Delivers what was answered and gives back the rest. \return the first error of the sampler
+  std::exception_ptr settle() {
+    std::exception_ptr error;
+    for (std::size_t i = 0; i < part_count_; ++i) {
+      const std::size_t first = first_of(i);
+      const std::size_t size = first_of(i + 1) - first;
+      const std::size_t done = parts_[i].done;
+      const auto part = std::span<const Request>(requests_).subspan(first, size);
+      engine_.deliver(part.first(done),
+                      std::span<const float>(values_).subspan(first * channels_, done * channels_));
+      if (done < size) engine_.give_back(part.subspan(done));
+      if (parts_[i].error && !error) error = parts_[i].error;
+    }
+    part_count_ = 0;
+    return error;
+  }
+
+  /// Parts that the executor has left out.
+  [[nodiscard]] std::size_t left_out() const {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < part_count_; ++i) count += parts_[i].begun ? 0 : 1;
+    return count;
+  }
+
+ private:
+  struct Part {
+    std::atomic<bool> begun{false};
+    std::size_t done = 0;  // requests whose values are there
+    std::exception_ptr error;
+  };
+
+  [[nodiscard]] std::size_t first_of(std::size_t part) const { return part * count_ / part_count_; }
+
+  E& engine_;
+  std::size_t channels_;
+  std::vector<Request> requests_;
+  std::vector<float> values_;
+  std::vector<Part> parts_;
+  std::size_t count_ = 0;
+  std::size_t part_count_ = 0;
+};
+
+/// See Synthesizer::run().
+template <class E>
+RunReport run_loop(E& engine, std::size_t channels, const SamplerRef& sampler, const StopRule& stop,
+                   const ExecutorRef& executor, const ProgressRef& progress, std::size_t batch) {
+  using Clock = std::chrono::steady_clock;
+  if (sampler.channels() != channels) {
+    refuse("the sampler returns " + std::to_string(sampler.channels()) + " values for " +
+           std::to_string(channels) + " channels");
+  }
+  if (batch == 0) refuse("batch is 0");
+  engine.set_stop(stop);
+  const auto begin = Clock::now();
+  Clock::duration sampling{};
+  const auto report = [&](StopReason reason) {
+    const auto seconds = [](Clock::duration time) {
+      return std::chrono::duration<double>(time).count();
+    };
+    return RunReport{reason, seconds(sampling), seconds(Clock::now() - begin - sampling)};
+  };
+  // A few parts per thread even out the cost of samples.
+  const std::size_t concurrency = executor.concurrency();
+  const std::size_t most = std::min(batch, engine.wave_size());
+  const std::size_t most_parts =
+      concurrency <= 1 ? 1 : std::min(most, 4 * std::min(concurrency, most));
+  Batch<E> requests(engine, channels, most, most_parts);
+  while (const std::size_t parts = requests.fill()) {
+    const auto task = [&](std::size_t index) { requests.answer(sampler, index); };
+    const auto sampling_begin = Clock::now();
+    executor.execute(parts, TaskRef(task));
+    sampling += Clock::now() - sampling_begin;
+    const std::size_t left_out = requests.left_out();
+    if (const std::exception_ptr error = requests.settle()) std::rethrow_exception(error);
+    if (left_out > 0) {
+      throw std::runtime_error("freqsynth: the executor left out " + std::to_string(left_out) +
+                               " of " + std::to_string(parts) + " tasks");
+    }
+    if (!progress(engine.progress())) return report(StopReason::cancelled);
+  }
+  return report(engine.stopped().value_or(StopReason::waiting));
+}
+
+}  // namespace freqsynth::detail
+
+#undef FREQSYNTH_RETHROW_CANCELLATION

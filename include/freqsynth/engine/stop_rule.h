@@ -1,0 +1,71 @@
+/// \file
+/// When a synthesis ends, and what it says of itself.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "freqsynth/basis/config.h"
+
+namespace freqsynth {
+
+/// When to stop; the first rule that holds ends the synthesis. Rules count from the engine's
+/// creation, so that raising them goes on.
+struct StopRule {
+  /// Samples per pixel, fractions included; rounded to whole samples. >= 0.
+  double samples_per_pixel = std::numeric_limits<double>::infinity();
+  /// Samples in total.
+  std::uint64_t samples = std::numeric_limits<std::uint64_t>::max();
+  /// The aliasing threshold of section 4.4 in the signal's unit, >= 0: no block changes by more
+  /// with its next sample, as root mean square over its pixels and by the estimate of
+  /// PrioritySettings::measure. Not an error bound.
+  double aliasing_threshold = 0;
+  /// The aliasing threshold ends nothing before each block has had that many samples; those whose
+  /// importance is 0 aside. 25 are a complete lattice of 5 x 5: that much of any image is looked
+  /// at, whatever the first samples say.
+  std::size_t least_samples = 25;
+
+  /// \throws std::invalid_argument when a rule is negative or not a number.
+  FREQSYNTH_API void validate() const;
+  /// Most samples of an image of so many pixels.
+  [[nodiscard]] FREQSYNTH_API std::uint64_t most_samples(std::size_t width,
+                                                         std::size_t height) const;
+};
+
+enum class StopReason {
+  samples,    ///< the number of samples is reached
+  threshold,  ///< every block is below the aliasing threshold, or meets the quantization target
+  exhausted,  ///< every block has its most samples, or there is no block
+  cancelled,  ///< the progress callback said so
+  waiting,    ///< positions handed out by request() elsewhere are still owed
+  unusable    ///< not one sample had a usable value: there is no image
+};
+
+/// Counters since the engine's creation.
+struct SynthesisStats {
+  std::uint64_t samples = 0;   ///< values delivered = sampler calls that succeeded
+  std::uint64_t absorbed = 0;  ///< samples taken in by blocks; border samples count for each block
+  std::uint64_t bad_samples = 0;  ///< samples with a value that is not is_usable_sample()
+  std::uint64_t waves = 0;        ///< waves completed
+  std::uint64_t blocks = 0;       ///< blocks of the image
+};
+
+/// Where a bad sample was.
+struct BadSample {
+  double x = 0, y = 0;
+  std::uint64_t id = 0;
+};
+
+/// What run() did.
+struct RunReport {
+  StopReason reason = StopReason::samples;
+  double sampler_seconds = 0;  ///< wall-clock time with the sampler and its executor at work
+  double core_seconds = 0;     ///< the rest: choosing, refining
+};
+
+}  // namespace freqsynth
+
+#if defined(FREQSYNTH_HEADER_ONLY)
+#include "freqsynth/engine/stop_rule.inl"
+#endif

@@ -1,0 +1,130 @@
+/// \file
+/// A wave: positions that were chosen together, and the values that have come for them.
+///
+/// Every slot of a wave is waiting to be handed out, owed by the host, or delivered. The engine
+/// takes the values in when all are delivered, in the order of the slots, so that it does not
+/// matter in which order they came.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "freqsynth/basis/config.h"
+
+namespace freqsynth {
+
+/// The wave that is under way. Nothing but reserve() allocates.
+class Wave {
+ public:
+  /// The position that a slot asks for: the next one of a block.
+  struct Slot {
+    std::uint32_t block = 0;
+    std::uint32_t index = 0;  ///< in the block's sequence
+  };
+
+  explicit Wave(std::size_t channels) : channels_(channels) {}
+
+  /// Makes room for `most` slots.
+  void reserve(std::size_t most);
+  /// Adds a slot, for which there is room.
+  void add(const Slot& slot);
+
+  [[nodiscard]] std::size_t size() const { return slots_.size(); }
+  [[nodiscard]] bool empty() const { return slots_.empty(); }
+  [[nodiscard]] const Slot& slot(std::size_t slot) const { return slots_[slot]; }
+
+  /// Whether a slot waits to be handed out.
+  [[nodiscard]] bool waiting() const { return next_ < slots_.size() || !returned_.empty(); }
+  /// Hands out a slot that waits, which is owed from then on: what came back first.
+  std::uint32_t hand_out();
+  [[nodiscard]] bool owed(std::size_t slot) const {
+    return slot < slots_.size() && states_[slot] == State::owed;
+  }
+  // The host answers in two steps, so that an answer is taken as a whole or not at all: claim all
+  // slots of it, which makes a second mention of a slot a fault; then deliver or recall each, or
+  // let go of them.
+  void claim(std::uint32_t slot);
+  void let_go(std::uint32_t slot) { states_[slot] = State::owed; }
+  /// Stores the values of a claimed slot.
+  void deliver(std::uint32_t slot, const float* values);
+  /// Lets a claimed slot wait again.
+  void recall(std::uint32_t slot);
+
+  [[nodiscard]] std::size_t delivered() const { return delivered_; }
+  /// Whether all values are there.
+  [[nodiscard]] bool complete() const { return !empty() && delivered_ == slots_.size(); }
+  /// The values of a slot that was delivered, one per channel.
+  [[nodiscard]] const float* values(std::size_t slot) const {
+    return values_.data() + slot * channels_;
+  }
+
+  void clear();
+
+ private:
+  enum class State : std::uint8_t { waiting, owed, claimed, delivered };
+
+  std::size_t channels_;
+  std::vector<Slot> slots_;
+  std::vector<State> states_;
+  std::vector<float> values_;
+  std::vector<std::uint32_t> returned_;  // slots that wait again
+  std::size_t next_ = 0;                 // first slot that was never handed out
+  std::size_t delivered_ = 0;
+};
+
+// ------------------------------------------------------------------------------------ definitions
+
+inline void Wave::reserve(std::size_t most) {
+  slots_.reserve(most);
+  states_.reserve(most);
+  returned_.reserve(most);
+  if (values_.size() < most * channels_) values_.resize(most * channels_);
+}
+
+inline void Wave::add(const Slot& slot) {
+  FREQSYNTH_ASSERT(slots_.size() < slots_.capacity());
+  slots_.push_back(slot);
+  states_.push_back(State::waiting);
+}
+
+inline std::uint32_t Wave::hand_out() {
+  FREQSYNTH_ASSERT(waiting());
+  std::uint32_t slot = static_cast<std::uint32_t>(next_);
+  if (returned_.empty()) {
+    ++next_;
+  } else {
+    slot = returned_.back();
+    returned_.pop_back();
+  }
+  states_[slot] = State::owed;
+  return slot;
+}
+
+inline void Wave::claim(std::uint32_t slot) {
+  FREQSYNTH_ASSERT(owed(slot));
+  states_[slot] = State::claimed;
+}
+
+inline void Wave::recall(std::uint32_t slot) {
+  FREQSYNTH_ASSERT(states_[slot] == State::claimed);
+  states_[slot] = State::waiting;
+  returned_.push_back(slot);
+}
+
+inline void Wave::deliver(std::uint32_t slot, const float* values) {
+  FREQSYNTH_ASSERT(states_[slot] == State::claimed);
+  states_[slot] = State::delivered;
+  std::copy_n(values, channels_, values_.data() + slot * channels_);
+  ++delivered_;
+}
+
+inline void Wave::clear() {
+  slots_.clear();
+  states_.clear();
+  returned_.clear();
+  next_ = delivered_ = 0;
+}
+
+}  // namespace freqsynth

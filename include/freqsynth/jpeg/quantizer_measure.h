@@ -1,0 +1,79 @@
+/// \file
+/// How much a block deserves the next sample when the synthesis ends in a quantiser (paper,
+/// sections 1, 2 and 6): by what its errors may change after quantisation.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+
+#include "freqsynth/basis/config.h"
+#include "freqsynth/engine/block_measure.h"
+#include "freqsynth/engine/priority.h"
+#include "freqsynth/jpeg/quantization_target.h"
+#include "freqsynth/refine/refiner.h"
+
+namespace freqsynth {
+
+/// A block that meets the target has priority 0.
+class QuantizerMeasure {
+ public:
+  /// \param target  valid for the image's channels
+  /// \param noisy   the sampler returns Monte Carlo estimates
+  QuantizerMeasure(QuantizationTarget target, const PrioritySettings& settings, bool noisy,
+                   std::size_t blocks, std::size_t most_samples)
+      : target_(std::move(target)),
+        metric_(settings, most_samples),
+        neighbours_(static_cast<float>(settings.neighbours)),
+        noisy_(noisy),
+        book_(blocks) {}
+
+  template <Refiner R>
+  void absorbed(const BlockView<R>& view, std::uint32_t block, float) {
+    book_.absorbed(view, block);
+  }
+
+  /// The error falls with the number of samples; so it is worth error / samples to take one more.
+  template <Refiner R>
+  [[nodiscard]] float priority(const BlockView<R>& view, std::uint32_t block, float factor) const {
+    const std::uint32_t samples = view.blocks.samples(block);
+    const float error = std::min(error_of(view, block), most_priority);
+    const auto allowed =
+        static_cast<float>(std::min(target_.allowed_error(), double{most_priority}));
+    if (error <= allowed && samples >= QuantizationTarget::least_samples) return 0;
+    return factor * std::max(error, allowed) / static_cast<float>(samples);
+  }
+
+  [[nodiscard]] bool has_news(std::uint32_t block) { return book_.has_news(block); }
+  /// Of the others only whether they still meet the target is of interest.
+  [[nodiscard]] static bool cares(float priority) { return priority == 0; }
+
+ private:
+  /// Expected squared error after quantisation, in squared steps.
+  template <Refiner R>
+  [[nodiscard]] float error_of(const BlockView<R>& view, std::uint32_t block) const {
+    const std::uint32_t samples = view.blocks.samples(block);
+    float error = 0;
+    std::array<float, max_terms> coefficients;
+    for (std::size_t c = 0; c < target_.steps.size(); ++c) {
+      float residual = book_.pooled(
+          view, block, [&](std::uint32_t b) { return view.blocks.residual(b, c); }, neighbours_, 0);
+      if (!noisy_) residual *= evenness(samples);
+      residual += metric_.uncertainty(samples, view.signal.variance(c));
+      view.blocks.coefficients(block, c, coefficients);
+      error += quantized_error(target_.steps[c], coefficients,
+                               view.blocks.refiner().variances(samples), residual);
+    }
+    return error;
+  }
+
+  QuantizationTarget target_;
+  PriorityMetric metric_;
+  float neighbours_;
+  bool noisy_;
+  ResidualBook book_;
+};
+
+}  // namespace freqsynth

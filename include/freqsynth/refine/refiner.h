@@ -1,0 +1,66 @@
+/// \file
+/// What an estimator of blocks must do. The engine knows no more of it than this concept: what a
+/// block keeps, how it takes in the next value, what is left over, and what the block is then.
+///
+/// A refiner holds no block. A block's state is `state_size()` floats, aligned to a cache line and
+/// owned by the engine; their meaning is the refiner's alone. "After n samples" means after the
+/// samples 0 .. n - 1 of the shared sequence, each of which was absorbed once, in order.
+#pragma once
+
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <span>
+
+#include "freqsynth/basis/config.h"
+
+namespace freqsynth {
+
+class InverseList;
+
+/// What an estimator says of one channel of a block; what images are made of.
+struct BlockFit {
+  /// F (eqs. 1, 2) in zig-zag order; zeros when the channel had no usable value.
+  std::array<float, max_terms> coefficients;
+  /// Sums of the channel's samples in each of the 64 pixels, row by row; a sample on the border
+  /// between pixels counts half, or a quarter, for each.
+  std::span<const float, max_terms> pixel_sums;
+  float residual = 0;  ///< variance of what the fit leaves over
+};
+
+template <class R>
+concept Refiner = requires(const R& refiner, float* state, const float* known, const float* values,
+                           std::size_t n, std::size_t channel,
+                           std::span<float, max_terms> coefficients) {
+  /// The sequence that it follows, and what is shared by all blocks.
+  { refiner.list() } -> std::same_as<const InverseList&>;
+  { refiner.channels() } -> std::same_as<std::size_t>;
+  /// Weight of each channel where one number has to stand for all.
+  { refiner.weights() } -> std::same_as<std::span<const float>>;
+
+  /// Floats that a block keeps.
+  { refiner.state_size() } -> std::same_as<std::size_t>;
+  /// Puts a state to "no sample yet".
+  { refiner.reset(state) } -> std::same_as<void>;
+  /// Takes in the values of sample n, one per channel; returns the mean squared change of the
+  /// block's pixels, weighted over the channels.
+  { refiner.absorb(state, n, values) } -> std::same_as<float>;
+  /// Hints that sample n will be absorbed soon.
+  { refiner.prefetch(known, n) } -> std::same_as<void>;
+
+  /// Degrees of freedom of the residuals after n samples, at least 1.
+  { refiner.freedom(n) } -> std::same_as<float>;
+  /// Variance of the residuals after n samples, weighted over the channels, and of one channel.
+  { refiner.residual(known, n) } -> std::same_as<float>;
+  { refiner.residual(known, n, channel) } -> std::same_as<float>;
+  /// Number of parameters that n >= 1 samples have been fit with.
+  { refiner.terms(n) } -> std::same_as<std::size_t>;
+  /// Expected squared error of each coefficient after n >= 1 samples, per unit of residual.
+  { refiner.variances(n) } -> std::same_as<std::span<const float, max_terms>>;
+
+  /// The coefficients alone, and all that the block is after n samples.
+  { refiner.coefficients(known, n, channel, coefficients) } -> std::same_as<void>;
+  { refiner.fit(known, n, channel) } -> std::same_as<BlockFit>;
+};
+
+}  // namespace freqsynth

@@ -1,0 +1,175 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "freqsynth/basis/check.h"
+#include "freqsynth/basis/float_bits.h"
+#include "freqsynth/basis/inverse_list.h"
+#include "freqsynth/engine/block_grid.h"
+#include "freqsynth/engine/block_measure.h"
+#include "freqsynth/engine/block_store.h"
+#include "freqsynth/engine/engine.h"
+#include "freqsynth/engine/sampling_loop.inl"
+#include "freqsynth/image/block_images.h"
+#include "freqsynth/jpeg/quantizer_measure.h"
+#include "freqsynth/refine/least_squares_refiner.h"
+#include "freqsynth/synthesizer.h"
+
+namespace freqsynth {
+namespace detail {
+
+/// Settings that are in range, with a list.
+inline SynthesisSettings validated(SynthesisSettings settings, std::size_t blocks) {
+  settings.priority.validate();
+  if (settings.max_samples_per_block == 0 ||
+      settings.max_samples_per_block > SampleSequence::max_size) {
+    refuse("max_samples_per_block is " + std::to_string(settings.max_samples_per_block) +
+           ", not in 1.." + std::to_string(SampleSequence::max_size));
+  }
+  if (!settings.importance.empty() && settings.importance.size() != blocks) {
+    refuse("importance has " + std::to_string(settings.importance.size()) + " entries for " +
+           std::to_string(blocks) + " blocks");
+  }
+  for (const float importance : settings.importance) {
+    require(is_finite(importance) && importance >= 0 && importance <= 1e6f, "one of importance",
+            importance, "in 0..1e6");
+  }
+  if (settings.quantization) settings.quantization->validate(settings.channels);
+  if (!settings.shared_list) settings.shared_list = SharedInverseList(settings.list);
+  return settings;
+}
+
+/// Factor on the priority of each block: its importance times its visible share.
+inline std::vector<float> factors_of(const BlockGrid& grid, const std::vector<float>& importance) {
+  std::vector<float> factors(grid.size());
+  for (std::size_t b = 0; b < factors.size(); ++b) {
+    factors[b] = grid.visible_share(b);
+    if (!importance.empty()) factors[b] *= importance[b];
+  }
+  return factors;
+}
+
+}  // namespace detail
+
+struct Synthesizer::Implementation {
+  using R = LeastSquaresRefiner;
+  using Engines = std::variant<std::monostate, Engine<R, ResidualMeasure>, Engine<R, ChangeMeasure>,
+                               Engine<R, QuantizerMeasure>>;
+
+  explicit Implementation(SynthesisSettings wanted)
+      : grid(BlockGrid::of(wanted.width, wanted.height, wanted.channels)),
+        settings(detail::validated(std::move(wanted), grid.size())) {
+    const std::size_t blocks = grid.size();
+    const std::size_t most = settings.max_samples_per_block;
+    if (settings.quantization) {
+      build(QuantizerMeasure(*settings.quantization, settings.priority, settings.noisy, blocks,
+                             most));
+    } else if (settings.priority.measure == PriorityMeasure::change) {
+      build(ChangeMeasure(settings.priority, blocks, most));
+    } else {
+      build(ResidualMeasure(settings.priority, blocks, most));
+    }
+  }
+
+  /// Calls use(engine).
+  template <class Use>
+  auto with_engine(Use&& use) {
+    return visit(engines, use);
+  }
+  template <class Use>
+  auto with_engine(Use&& use) const {
+    return visit(engines, use);
+  }
+
+  BlockGrid grid;
+  SynthesisSettings settings;
+  Engines engines;
+
+ private:
+  template <class M>
+  void build(M measure) {
+    BlockStore<R> blocks(R(settings.shared_list, settings.channels, settings.channel_weights),
+                         grid.size(), settings.max_samples_per_block);
+    engines.emplace<Engine<R, M>>(grid, std::move(blocks), std::move(measure),
+                                  detail::factors_of(grid, settings.importance), settings.wave);
+  }
+
+  template <class Variant, class Use>
+  static auto visit(Variant& engines, Use& use) {
+    if (auto* engine = std::get_if<Engine<R, ResidualMeasure>>(&engines)) return use(*engine);
+    if (auto* engine = std::get_if<Engine<R, ChangeMeasure>>(&engines)) return use(*engine);
+    return use(*std::get_if<Engine<R, QuantizerMeasure>>(&engines));
+  }
+};
+
+FREQSYNTH_INLINE Synthesizer::Synthesizer(SynthesisSettings settings)
+    : implementation_(new Implementation(std::move(settings))) {}
+
+FREQSYNTH_INLINE Synthesizer::~Synthesizer() { delete implementation_; }
+
+FREQSYNTH_INLINE void Synthesizer::set_stop(const StopRule& stop) {
+  implementation_->with_engine([&](auto& engine) { engine.set_stop(stop); });
+}
+
+FREQSYNTH_INLINE std::size_t Synthesizer::request(std::span<Request> out) {
+  return implementation_->with_engine([&](auto& engine) { return engine.request(out); });
+}
+
+FREQSYNTH_INLINE void Synthesizer::deliver(std::span<const Request> requests,
+                                           std::span<const float> values) {
+  implementation_->with_engine([&](auto& engine) { engine.deliver(requests, values); });
+}
+
+FREQSYNTH_INLINE void Synthesizer::give_back(std::span<const Request> requests) {
+  implementation_->with_engine([&](auto& engine) { engine.give_back(requests); });
+}
+
+FREQSYNTH_INLINE std::optional<StopReason> Synthesizer::stopped() {
+  return implementation_->with_engine([](auto& engine) { return engine.stopped(); });
+}
+
+FREQSYNTH_INLINE RunReport Synthesizer::run_erased(const detail::SamplerRef& sampler,
+                                                   const StopRule& stop,
+                                                   const detail::ExecutorRef& executor,
+                                                   const detail::ProgressRef& progress,
+                                                   std::size_t batch) {
+  return implementation_->with_engine([&](auto& engine) {
+    return detail::run_loop(engine, channels(), sampler, stop, executor, progress, batch);
+  });
+}
+
+FREQSYNTH_INLINE FrequencyImage Synthesizer::image() const {
+  return implementation_->with_engine([](const auto& engine) {
+    return engine.read(
+        [](const BlockGrid& grid, const auto& blocks) { return fit_image(grid, blocks); });
+  });
+}
+
+FREQSYNTH_INLINE FrequencyImage Synthesizer::finished_image(const FinishSettings& settings) const {
+  const SharedInverseList& list = implementation_->settings.shared_list;
+  return implementation_->with_engine([&](const auto& engine) {
+    return engine.read([&](const BlockGrid& grid, const auto& blocks) {
+      return freqsynth::finished_image(grid, blocks, list, settings);
+    });
+  });
+}
+
+FREQSYNTH_INLINE FrequencyImage Synthesizer::finished_image() const {
+  return finished_image(settings().noisy ? FinishSettings::noisy() : FinishSettings{});
+}
+
+FREQSYNTH_INLINE const SynthesisSettings& Synthesizer::settings() const {
+  return implementation_->settings;
+}
+
+FREQSYNTH_INLINE SynthesisStats Synthesizer::stats() const {
+  return implementation_->with_engine([](const auto& engine) { return engine.stats(); });
+}
+
+FREQSYNTH_INLINE std::vector<BadSample> Synthesizer::bad_samples() const {
+  return implementation_->with_engine([](const auto& engine) { return engine.bad_samples(); });
+}
+
+}  // namespace freqsynth

@@ -1,0 +1,1 @@
+#include "freqsynth/basis/shared_list.inl"

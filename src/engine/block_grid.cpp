@@ -1,0 +1,1 @@
+#include "freqsynth/engine/block_grid.inl"

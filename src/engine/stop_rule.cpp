@@ -1,0 +1,1 @@
+#include "freqsynth/engine/stop_rule.inl"

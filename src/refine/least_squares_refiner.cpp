@@ -1,0 +1,1 @@
+#include "freqsynth/refine/least_squares_refiner.inl"

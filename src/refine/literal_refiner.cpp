@@ -1,0 +1,1 @@
+#include "freqsynth/refine/literal_refiner.inl"

@@ -1,0 +1,1 @@
+#include "freqsynth/synthesizer.inl"
