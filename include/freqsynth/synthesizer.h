@@ -47,8 +47,8 @@ struct SynthesisSettings {
   std::size_t max_samples_per_block = std::size_t{257} * 257;
   /// Weight of each channel in the priority, in 0..1e6; empty: equal weights.
   std::vector<float> channel_weights = {};
-  /// Factor on the priority of each block, row by row, in 0..1e6; empty: 1. 0 leaves a block at its
-  /// first sample.
+  /// Factor on the priority of each block, row by row, 0 or in 1e-6..1e6; empty: 1. 0 leaves a
+  /// block at its first sample.
   std::vector<float> importance = {};
   /// When set, blocks are chosen by what their errors may change after quantisation, and the
   /// synthesis ends by itself when no block is above the target's tolerance.

@@ -33,8 +33,10 @@ inline SynthesisSettings validated(SynthesisSettings settings, std::size_t block
            std::to_string(blocks) + " blocks");
   }
   for (const float importance : settings.importance) {
-    require(is_finite(importance) && importance >= 0 && importance <= 1e6f, "one of importance",
-            importance, "in 0..1e6");
+    // Smaller factors than that would make priorities nothing at all.
+    const bool in_range = importance >= 1e-6f && importance <= 1e6f;
+    require(is_finite(importance) && (importance == 0 || in_range), "one of importance", importance,
+            "0 or in 1e-6..1e6");
   }
   if (settings.quantization) settings.quantization->validate(settings.channels);
   if (!settings.shared_list) settings.shared_list = SharedInverseList(settings.list);
