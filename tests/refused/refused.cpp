@@ -1,4 +1,5 @@
-// Samplers that must not compile, one at a time (-DCASE=n), each refused with the sentence beside it.
+// Samplers that must not compile, one at a time (-DCASE=n), each refused with the sentence beside
+// it.
 #if CASE == 6  // needs the compiled library
 #define FREQSYNTH_HEADER_ONLY
 #include "freqsynth/engine/thread_pool.h"

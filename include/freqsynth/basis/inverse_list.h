@@ -105,7 +105,8 @@ struct InverseList::Chunk {
 
 // ------------------------------------------------------------------------------------ definitions
 
-inline const InverseList::Chunk& InverseList::chunk_of(std::size_t index) const {
+[[gnu::always_inline]] inline const InverseList::Chunk& InverseList::chunk_of(
+    std::size_t index) const {
   if (index >= size()) [[unlikely]] {
     grow(index + 1);
   }

@@ -35,8 +35,7 @@ struct BlockGrid {
   };
   /// Where a position of the sequence lies for a block. What would lie beyond the image is
   /// reflected back into it.
-  [[nodiscard]] FREQSYNTH_API Point point(std::size_t block,
-                                          const SequencePosition& position) const;
+  [[nodiscard]] Point point(std::size_t block, const SequencePosition& position) const;
 
   /// Names the point that is position `index` of a block: the same whichever block asks, and no two
   /// points have the same name.
@@ -54,6 +53,28 @@ struct BlockGrid {
 };
 
 // ------------------------------------------------------------------------------------ definitions
+
+namespace detail {
+
+/// Reflects a coordinate beyond `size` back into [0, size].
+[[nodiscard]] FREQSYNTH_API double reflect(double x, double size);
+
+}  // namespace detail
+
+inline BlockGrid::Point BlockGrid::point(std::size_t block,
+                                         const SequencePosition& position) const {
+  Point point{(static_cast<double>(column(block)) + position.s) * block_size,
+              (static_cast<double>(row(block)) + position.t) * block_size};
+  const auto right = static_cast<double>(width);
+  const auto bottom = static_cast<double>(height);
+  if (point.x > right) [[unlikely]] {
+    point.x = detail::reflect(point.x, right);
+  }
+  if (point.y > bottom) [[unlikely]] {
+    point.y = detail::reflect(point.y, bottom);
+  }
+  return point;
+}
 
 inline std::uint64_t BlockGrid::name(std::uint32_t block, std::uint32_t index,
                                      const SequencePosition& position) const {

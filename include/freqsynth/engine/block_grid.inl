@@ -12,9 +12,7 @@
 namespace freqsynth {
 namespace detail {
 
-/// Reflects a coordinate that may lie beyond `size` back into [0, size].
-inline double reflect(double x, double size) {
-  if (x <= size) return x;
+FREQSYNTH_INLINE double reflect(double x, double size) {
   x = std::fmod(x, 2 * size);
   return x > size ? 2 * size - x : x;
 }
@@ -48,14 +46,6 @@ FREQSYNTH_INLINE BlockGrid BlockGrid::of(std::size_t width, std::size_t height,
 FREQSYNTH_INLINE float BlockGrid::visible_share(std::size_t block) const {
   return static_cast<float>(detail::visible_share(column(block), width) *
                             detail::visible_share(row(block), height));
-}
-
-FREQSYNTH_INLINE BlockGrid::Point BlockGrid::point(std::size_t block,
-                                                   const SequencePosition& position) const {
-  return {detail::reflect((static_cast<double>(column(block)) + position.s) * block_size,
-                          static_cast<double>(width)),
-          detail::reflect((static_cast<double>(row(block)) + position.t) * block_size,
-                          static_cast<double>(height))};
 }
 
 }  // namespace freqsynth

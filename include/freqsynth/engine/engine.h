@@ -83,6 +83,9 @@ class Engine {
   [[nodiscard]] const SequencePosition& position(std::size_t index) const {
     return blocks_.refiner().list().position(index);
   }
+  [[nodiscard]] std::uint64_t name(const Wave::Slot& slot) const {
+    return grid_.name(slot.block, slot.index, position(slot.index));
+  }
   std::optional<StopReason> prepare_wave();
   void reserve(std::size_t most);
   void choose(std::uint32_t block);

@@ -110,10 +110,10 @@ bool Engine<R, M>::asked_by_neighbour(std::uint32_t block, std::uint32_t index) 
 
 template <Refiner R, BlockMeasure<R> M>
 Request Engine<R, M>::make_request(std::uint32_t slot) const {
-  const auto [block, index] = wave_.slot(slot);
-  const SequencePosition& place = position(index);
-  const BlockGrid::Point point = grid_.point(block, place);
-  return {point.x, point.y, grid_.name(block, index, place), place.spacing * block_size, slot};
+  const Wave::Slot& asked = wave_.slot(slot);
+  const SequencePosition& place = position(asked.index);
+  const BlockGrid::Point point = grid_.point(asked.block, place);
+  return {point.x, point.y, name(asked), place.spacing * block_size, slot};
 }
 
 /// Claims the slots of all requests. \throws std::invalid_argument, and none is claimed.
@@ -121,7 +121,7 @@ template <Refiner R, BlockMeasure<R> M>
 void Engine<R, M>::claim(std::span<const Request> requests) {
   for (std::size_t i = 0; i < requests.size(); ++i) {
     const Request& request = requests[i];
-    if (wave_.owed(request.slot) && make_request(request.slot).id == request.id) {
+    if (wave_.owed(request.slot) && name(wave_.slot(request.slot)) == request.id) {
       wave_.claim(request.slot);
       continue;
     }
@@ -193,7 +193,7 @@ void Engine<R, M>::note(const Wave::Slot& slot, const float* values) {
   ++stats_.bad_samples;
   if (bad_.size() < most_bad_reported) {
     const BlockGrid::Point point = grid_.point(slot.block, place);
-    bad_.push_back({point.x, point.y, grid_.name(slot.block, slot.index, place)});
+    bad_.push_back({point.x, point.y, name(slot)});
   }
 }
 
