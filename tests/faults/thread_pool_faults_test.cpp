@@ -32,6 +32,7 @@ using helpers::at_samples;
 using helpers::picture;
 using helpers::settings_of;
 
+#if !defined(FREQSYNTH_TEST_SANITIZED)
 /// Ends the process with 0 when a pool of too many threads is refused, and a smaller one works.
 [[noreturn]] void ask_for_too_many_threads() {
   // Each thread takes 8 MB of address space for its stack, and there is room for a few dozen.
@@ -49,6 +50,7 @@ using helpers::settings_of;
   pool.execute(10, TaskRef(task));
   std::_Exit(sum == 45 ? 0 : 4);
 }
+#endif
 
 TEST(ThreadPoolFaults, ThreadsThatCannotBeStartedAreAnError) {
 #if defined(FREQSYNTH_TEST_SANITIZED)
