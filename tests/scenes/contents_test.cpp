@@ -27,8 +27,9 @@ TEST(Scenes, FanIsBlackAndWhiteAndMirrorsLeftToRight) {
     EXPECT_EQ(left, radiance(*scene, 512 - x, y)) << x;
     if (left[0] == 0) ++black;
   }
-  EXPECT_GT(black, 100u);
-  EXPECT_LT(black, 300u);
+  // 196 were measured.
+  EXPECT_GT(black, 157u);
+  EXPECT_LT(black, 245u);
 }
 
 TEST(Scenes, ZonePlateReachesItsFrequencyAtTheFarCorner) {
@@ -110,7 +111,7 @@ TEST(Scenes, CheckerHasTwoColoursBelowTheHorizonOnly) {
     }
     return colors.size();
   };
-  EXPECT_GT(colors_between(0, 50), 100u);
+  EXPECT_GT(colors_between(0, 50), 4000u) << "5000 were measured";
   EXPECT_EQ(colors_between(100, 200), 2u);
 }
 
@@ -128,10 +129,12 @@ TEST(Scenes, SunIsSmallAndAThousandTimesAsBrightAsTheSky) {
       ++sky;
     }
   }
-  EXPECT_GT(sun, 40);
-  EXPECT_LT(sun, 400);
-  EXPECT_GT(dark, 5000);
-  EXPECT_GT(sky, 20000);
+  // A disc of 7 pixels radius, of which firs cover a little: 145 were measured.
+  EXPECT_GT(sun, 116);
+  EXPECT_LE(sun, 154);
+  // 11332 and 28523 were measured.
+  EXPECT_GT(dark, 9000);
+  EXPECT_GT(sky, 23000);
 }
 
 }  // namespace

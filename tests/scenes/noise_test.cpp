@@ -59,7 +59,7 @@ TEST(NoisyScenes, ConvergeToOneMeanForAllIdsAndSeeds) {
       if (a.variance > 1e-12) ++noisy;
       if (a.mean != c.mean) ++changed;
     }
-    EXPECT_GT(noisy, places / 4) << name;
+    EXPECT_GE(noisy, 22u) << name << ": 28 of 40 were measured where it is the fewest";
     EXPECT_GE(changed, noisy) << name;
   }
 }
@@ -84,7 +84,7 @@ TEST(NoisyScenes, NeighbouringIdsAreNotCorrelated) {
       EXPECT_LT(std::abs(covariance / variance), 5 / std::sqrt(count)) << name;
       ++checked;
     }
-    EXPECT_GT(checked, 3u) << name;
+    EXPECT_GE(checked, 9u) << name << ": 12 of 20 were measured where it is the fewest";
   }
 }
 

@@ -85,7 +85,8 @@ TEST(Scenes, SayWhetherTheyAreNoisy) {
       if (one != radiance(*scene, at.x[i], at.y[i], at.id[i] + 1)) ++different;
     }
     if (scene->noisy()) {
-      EXPECT_GT(different, at.x.size() / 2) << name;
+      EXPECT_GT(different, 650u) << name
+                                 << ": 814 of the 1000 were measured where it is the fewest";
     } else {
       EXPECT_EQ(different, 0u) << name;
     }
@@ -108,8 +109,8 @@ TEST(Scenes, LookTheSameAtEverySize) {
         if (std::abs(a[c] - b[c]) > 1e-4f * (1 + a[c])) ++different;
       }
     }
-    // Rounding may put a sample on the other side of an edge.
-    EXPECT_LE(different, 3 * count / 500) << name;
+    // None was seen. Rounding may put a sample on the other side of an edge.
+    EXPECT_LE(different, 3u) << name;
   }
 }
 
