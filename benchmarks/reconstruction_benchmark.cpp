@@ -27,6 +27,12 @@ const FrequencyImage& full_hd() {
   return image;
 }
 
+/// Its pixels need no filter.
+const FrequencyImage& finished_full_hd() {
+  static const FrequencyImage image = sampled_engine(1920, 1080, 1)->finished_image();
+  return image;
+}
+
 void report(benchmark::State& state, const FrequencyImage& image) {
   const auto blocks = static_cast<double>(image.blocks_x() * image.blocks_y());
   state.counters["per_block"] = benchmark::Counter(
@@ -48,8 +54,9 @@ struct Frame {
   }
 };
 
-void frame(benchmark::State& state, double scale, PixelFilter filter) {
-  const FrequencyImage& image = full_hd();
+void frame(benchmark::State& state, const FrequencyImage& (*get)(), double scale,
+           PixelFilter filter) {
+  const FrequencyImage& image = get();
   Frame out(image, scale);
   ReconstructionSettings settings;
   settings.pixel_filter = filter;
@@ -60,17 +67,20 @@ void frame(benchmark::State& state, double scale, PixelFilter filter) {
   }
   report(state, image);
 }
-BENCHMARK_CAPTURE(frame, scale_1, 1.0, PixelFilter::box)
+BENCHMARK_CAPTURE(frame, scale_1, full_hd, 1.0, PixelFilter::box)
     ->Name("reconstruct/1920x1080/scale_1")
     ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(frame, scale_2, 2.0, PixelFilter::box)
+BENCHMARK_CAPTURE(frame, scale_2, full_hd, 2.0, PixelFilter::box)
     ->Name("reconstruct/1920x1080/scale_2")
     ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(frame, scale_half, 0.5, PixelFilter::box)
+BENCHMARK_CAPTURE(frame, scale_half, full_hd, 0.5, PixelFilter::box)
     ->Name("reconstruct/1920x1080/scale_half")
     ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(frame, scale_1_points, 1.0, PixelFilter::none)
+BENCHMARK_CAPTURE(frame, scale_1_points, full_hd, 1.0, PixelFilter::none)
     ->Name("reconstruct/1920x1080/scale_1_points")
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(frame, scale_1_finished, finished_full_hd, 1.0, PixelFilter::box)
+    ->Name("reconstruct/1920x1080/scale_1_finished")
     ->Unit(benchmark::kMillisecond);
 
 /// Pixels in new memory, as the shortest program has them.
@@ -86,21 +96,6 @@ void fresh_frame(benchmark::State& state) {
 }
 BENCHMARK(fresh_frame)
     ->Name("reconstruct/1920x1080/scale_1_fresh_memory")
-    ->Unit(benchmark::kMillisecond);
-
-/// The same of finished pixels, which need no filter.
-void finished_frame(benchmark::State& state) {
-  static const FrequencyImage image = sampled_engine(1920, 1080, 1)->finished_image();
-  Frame out(image, 1);
-  for (auto _ : state) {
-    reconstruct(image, {}, out.view);
-    benchmark::DoNotOptimize(out.pixels.data());
-    benchmark::ClobberMemory();
-  }
-  report(state, image);
-}
-BENCHMARK(finished_frame)
-    ->Name("reconstruct/1920x1080/scale_1_finished")
     ->Unit(benchmark::kMillisecond);
 
 /// One block, tables included: what a call costs at least.
