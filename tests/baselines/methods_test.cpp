@@ -98,7 +98,8 @@ TEST_P(EachMethod, SpendsTheSamplesInsideTheImageAndCountsThem) {
       std::uint64_t calls = 0;
       std::vector<std::uint32_t> counted(width * height, 0);
       const Rendering rendering = render(
-          [&](double x, double y, std::uint64_t id, std::span<float, 3> rgb) {
+          [&, width = width, height = height](double x, double y, std::uint64_t id,
+                                              std::span<float, 3> rgb) {
             ++calls;
             ids.insert(id);
             ASSERT_GE(x, 0);

@@ -113,7 +113,7 @@ TEST_P(Orderings, FreqsynthIsAsGoodAsItWas) {
 }
 
 TEST_P(Orderings, FreqsynthIsBetterThanJitteredSamplesInABox) {
-  for (const std::size_t i : {0, 1}) {
+  for (const std::size_t i : {0u, 1u}) {
     const double rate = rates[i + 1];
     const quality::Metrics& ours = measured("freqsynth", rate);
     const quality::Metrics& theirs = measured("jittered-box", rate);
