@@ -20,10 +20,15 @@
 namespace freqsynth::bench {
 namespace {
 
-SynthesisSettings settings_of(const benchmark::State& state) {
-  SynthesisSettings settings;
-  settings.width = static_cast<std::size_t>(state.range(0));
-  settings.height = static_cast<std::size_t>(state.range(1));
+using Clock = std::chrono::steady_clock;
+
+/// \param list  of its own: the engine builds it
+enum class List { shared, own };
+
+SynthesisSettings settings_of(const benchmark::State& state, List list) {
+  SynthesisSettings settings = sharing_settings(static_cast<std::size_t>(state.range(0)),
+                                                static_cast<std::size_t>(state.range(1)));
+  if (list == List::own) settings.shared_list = {};
   return settings;
 }
 
@@ -33,14 +38,9 @@ StopRule one_per_pixel() {
   return stop;
 }
 
-enum class List { shared, own };
-
 template <List list>
 void engine(benchmark::State& state) {
-  using Clock = std::chrono::steady_clock;
-  const auto seconds = [](Clock::duration d) { return std::chrono::duration<double>(d).count(); };
-  SynthesisSettings settings = settings_of(state);
-  if (list == List::shared) settings.shared_list = prepared_list();
+  const SynthesisSettings settings = settings_of(state, list);
   double construction = 0, core = 0, sampling = 0, result = 0;
   std::uint64_t samples = 0, absorbed = 0, waves = 0;
   for (auto _ : state) {
@@ -52,9 +52,9 @@ void engine(benchmark::State& state) {
     const FrequencyImage image = synthesizer.image();
     const auto t3 = Clock::now();
     benchmark::DoNotOptimize(image.coefficients(0, 0, 0)[0]);
-    state.SetIterationTime(seconds(t3 - t0));
-    construction += seconds(t1 - t0);
-    result += seconds(t3 - t2);
+    state.SetIterationTime(seconds_between(t0, t3));
+    construction += seconds_between(t0, t1);
+    result += seconds_between(t2, t3);
     core += report.core_seconds;
     sampling += report.sampler_seconds;
     const SynthesisStats stats = synthesizer.stats();
@@ -90,6 +90,23 @@ BENCHMARK(engine<List::own>)
     ->UseManualTime()
     ->Unit(benchmark::kMillisecond);
 
+/// An engine that has done nothing yet; its end is not counted.
+void construction(benchmark::State& state) {
+  const SynthesisSettings settings = settings_of(state, List::shared);
+  for (auto _ : state) {
+    const auto start = Clock::now();
+    Synthesizer synthesizer(settings);
+    state.SetIterationTime(seconds_between(start, Clock::now()));
+    benchmark::DoNotOptimize(&synthesizer);
+  }
+}
+BENCHMARK(construction)
+    ->Name("engine/construction")
+    ->ArgNames({"width", "height"})
+    ->Args({1920, 1080})
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
+
 /// Sets the peak of the resident memory back to the present (Linux; nothing elsewhere).
 void reset_peak_memory() { std::ofstream("/proc/self/clear_refs") << "5"; }
 
@@ -110,7 +127,7 @@ void memory(benchmark::State& state) {
   double peak = 0;
   for (auto _ : state) {
     reset_peak_memory();
-    Synthesizer synthesizer(settings_of(state));
+    Synthesizer synthesizer(settings_of(state, List::own));
     synthesizer.run(DiscScene{}, one_per_pixel());
     const FrequencyImage image = synthesizer.image();
     const std::vector<float> pixels = reconstruct(image);

@@ -1,13 +1,20 @@
 /// \file
-/// What several benchmarks share: term vectors, normal matrices, a scene that costs next to
-/// nothing.
+/// What several benchmarks share: term vectors, normal matrices, a list, a scene that costs next to
+/// nothing, and an engine that has sampled it.
 #pragma once
 
+#include <benchmark/benchmark.h>
+
 #include <array>
+#include <chrono>
 #include <cstddef>
 #include <memory>
 #include <span>
 #include <vector>
+
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
 
 #include "freqsynth/basis/dct.h"
 #include "freqsynth/basis/inverse_list.h"
@@ -15,6 +22,7 @@
 #include "freqsynth/basis/sample_sequence.h"
 #include "freqsynth/basis/shared_list.h"
 #include "freqsynth/sampler.h"
+#include "freqsynth/synthesizer.h"
 
 namespace freqsynth::bench {
 
@@ -45,7 +53,7 @@ inline std::unique_ptr<TermMatrix> normal_matrix(std::size_t terms) {
   return normal;
 }
 
-/// A list that exists already, for images that share it.
+/// A list that exists already, for images that share it. No other place here makes one.
 inline SharedInverseList prepared_list() {
   static const SharedInverseList list = [] {
     auto made = SharedInverseList(InverseListSettings{});
@@ -71,5 +79,40 @@ struct DiscScene {
     }
   }
 };
+
+/// Settings of an image that shares the list.
+inline SynthesisSettings sharing_settings(std::size_t width, std::size_t height) {
+  SynthesisSettings settings;
+  settings.width = width;
+  settings.height = height;
+  settings.shared_list = prepared_list();
+  return settings;
+}
+
+/// An engine that has sampled the scene.
+inline std::unique_ptr<Synthesizer> sampled_engine(std::size_t width, std::size_t height,
+                                                   double samples_per_pixel) {
+  auto engine = std::make_unique<Synthesizer>(sharing_settings(width, height));
+  StopRule stop;
+  stop.samples_per_pixel = samples_per_pixel;
+  engine->run(DiscScene{}, stop);
+  return engine;
+}
+
+/// Seconds between two times of std::chrono::steady_clock.
+inline double seconds_between(std::chrono::steady_clock::time_point first,
+                              std::chrono::steady_clock::time_point last) {
+  return std::chrono::duration<double>(last - first).count();
+}
+
+/// Gives free memory back to the system, so that what is allocated next is new pages, as in a
+/// program that does a thing once (glibc; nothing elsewhere). The state's clock stands meanwhile.
+inline void forget_free_memory(benchmark::State& state) {
+  state.PauseTiming();
+#if defined(__GLIBC__)
+  malloc_trim(0);
+#endif
+  state.ResumeTiming();
+}
 
 }  // namespace freqsynth::bench

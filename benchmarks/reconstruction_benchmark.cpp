@@ -18,25 +18,18 @@
 #include "fixtures.h"
 #include "freqsynth/image/butterworth.h"
 #include "freqsynth/image/reconstructor.h"
-#include "freqsynth/synthesizer.h"
 
 namespace freqsynth::bench {
 namespace {
 
-FrequencyImage make_image(std::size_t width, std::size_t height) {
-  SynthesisSettings settings;
-  settings.width = width;
-  settings.height = height;
-  settings.shared_list = prepared_list();
-  Synthesizer synthesizer(settings);
-  StopRule stop;
-  stop.samples_per_pixel = 1;
-  synthesizer.run(DiscScene{}, stop);
-  return synthesizer.image();
+const FrequencyImage& full_hd() {
+  static const FrequencyImage image = sampled_engine(1920, 1080, 1)->image();
+  return image;
 }
 
-const FrequencyImage& full_hd() {
-  static const FrequencyImage image = make_image(1920, 1080);
+/// Its pixels need no filter.
+const FrequencyImage& finished_full_hd() {
+  static const FrequencyImage image = sampled_engine(1920, 1080, 1)->finished_image();
   return image;
 }
 
@@ -61,8 +54,9 @@ struct Frame {
   }
 };
 
-void frame(benchmark::State& state, double scale, PixelFilter filter) {
-  const FrequencyImage& image = full_hd();
+void frame(benchmark::State& state, const FrequencyImage& (*get)(), double scale,
+           PixelFilter filter) {
+  const FrequencyImage& image = get();
   Frame out(image, scale);
   ReconstructionSettings settings;
   settings.pixel_filter = filter;
@@ -73,22 +67,40 @@ void frame(benchmark::State& state, double scale, PixelFilter filter) {
   }
   report(state, image);
 }
-BENCHMARK_CAPTURE(frame, scale_1, 1.0, PixelFilter::box)
+BENCHMARK_CAPTURE(frame, scale_1, full_hd, 1.0, PixelFilter::box)
     ->Name("reconstruct/1920x1080/scale_1")
     ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(frame, scale_2, 2.0, PixelFilter::box)
+BENCHMARK_CAPTURE(frame, scale_2, full_hd, 2.0, PixelFilter::box)
     ->Name("reconstruct/1920x1080/scale_2")
     ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(frame, scale_half, 0.5, PixelFilter::box)
+BENCHMARK_CAPTURE(frame, scale_half, full_hd, 0.5, PixelFilter::box)
     ->Name("reconstruct/1920x1080/scale_half")
     ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(frame, scale_1_points, 1.0, PixelFilter::none)
+BENCHMARK_CAPTURE(frame, scale_1_points, full_hd, 1.0, PixelFilter::none)
     ->Name("reconstruct/1920x1080/scale_1_points")
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(frame, scale_1_finished, finished_full_hd, 1.0, PixelFilter::box)
+    ->Name("reconstruct/1920x1080/scale_1_finished")
+    ->Unit(benchmark::kMillisecond);
+
+/// Pixels in new memory, as the shortest program has them.
+void fresh_frame(benchmark::State& state) {
+  const FrequencyImage& image = full_hd();
+  for (auto _ : state) {
+    forget_free_memory(state);
+    const std::vector<float> pixels = reconstruct(image);
+    benchmark::DoNotOptimize(pixels.data());
+    benchmark::ClobberMemory();
+  }
+  report(state, image);
+}
+BENCHMARK(fresh_frame)
+    ->Name("reconstruct/1920x1080/scale_1_fresh_memory")
     ->Unit(benchmark::kMillisecond);
 
 /// One block, tables included: what a call costs at least.
 void single_block(benchmark::State& state) {
-  const FrequencyImage image = make_image(8, 8);
+  const FrequencyImage image = sampled_engine(8, 8, 1)->image();
   Frame out(image, 1);
   for (auto _ : state) {
     reconstruct(image, {}, out.view);

@@ -77,14 +77,16 @@ std::span<const Method> methods() {
   return all;
 }
 
-const Method& method(std::string_view name) {
+const Method& find_method(std::span<const Method> all, std::string_view name) {
   std::string known;
-  for (const Method& each : methods()) {
+  for (const Method& each : all) {
     if (each.name == name) return each;
     known.append(known.empty() ? "" : ", ").append(each.name);
   }
-  throw std::invalid_argument("unknown method '" + std::string(name) + "' (known are " + known +
-                              ")");
+  std::string said = "unknown method '";
+  throw std::invalid_argument(said.append(name).append("' (known are ").append(known).append(")"));
 }
+
+const Method& method(std::string_view name) { return find_method(methods(), name); }
 
 }  // namespace baselines

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "rendering.h"
@@ -12,9 +13,9 @@ namespace baselines {
 
 /// A system with its default settings.
 struct Method {
-  std::string_view name;         ///< stable, lower case, with hyphens
-  std::string_view description;  ///< one line
-  std::string_view paper;        ///< authors and year
+  std::string name;         ///< stable, lower case, with hyphens
+  std::string description;  ///< one line
+  std::string paper;        ///< authors and year
   std::function<Rendering(const Radiance&, const Job&)> render;
   /// Least samples per pixel that it is made for. It gives a picture below that, too, down to one
   /// sample in all.
@@ -24,8 +25,11 @@ struct Method {
 /// All systems.
 [[nodiscard]] std::span<const Method> methods();
 
-/// The system of that name.
+/// The one of these that has the name.
 /// \throws std::invalid_argument, naming it and the known ones, when there is none.
+[[nodiscard]] const Method& find_method(std::span<const Method> all, std::string_view name);
+
+/// The system of that name; throws as find_method() does.
 [[nodiscard]] const Method& method(std::string_view name);
 
 }  // namespace baselines

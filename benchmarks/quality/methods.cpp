@@ -8,6 +8,7 @@
 #include <functional>
 #include <limits>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "freqsynth/basis/sample_sequence.h"
@@ -78,7 +79,7 @@ std::vector<Method> all_methods() {
                    return synthesize(radiance, job, Estimate::paper);
                  },
                  one_per_block});
-  detail::add_baselines(all);
+  all.insert(all.end(), baselines::methods().begin(), baselines::methods().end());
   return all;
 }
 
@@ -147,15 +148,7 @@ std::span<const Method> methods() {
   return all;
 }
 
-const Method& find_method(std::string_view name) {
-  std::string known;
-  for (const Method& method : methods()) {
-    if (method.name == name) return method;
-    known.append(known.empty() ? "" : ", ").append(method.name);
-  }
-  std::string said = "unknown method '";
-  throw std::invalid_argument(said.append(name).append("' (known are ").append(known).append(")"));
-}
+const Method& find_method(std::string_view name) { return baselines::find_method(methods(), name); }
 
 Run run_method(const Method& method, const baselines::Radiance& radiance,
                const baselines::Job& job) {

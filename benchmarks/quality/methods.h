@@ -4,24 +4,17 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <span>
-#include <string>
 #include <string_view>
 #include <vector>
 
+#include "baselines/methods.h"
 #include "baselines/rendering.h"
 
 namespace quality {
 
 /// A way to make a picture out of a number of samples.
-struct Method {
-  std::string name;         ///< as on the command line
-  std::string description;  ///< one line
-  std::string paper;        ///< where it comes from
-  std::function<baselines::Rendering(const baselines::Radiance&, const baselines::Job&)> render;
-  double least_rate = 0;  ///< samples per pixel below which it makes no picture
-};
+using baselines::Method;
 
 /// freqsynth, freqsynth-paper, and all systems of benchmarks/baselines.
 [[nodiscard]] std::span<const Method> methods();
@@ -52,12 +45,5 @@ struct Run {
 
 /// \return the number of samples of a rate in samples per pixel, at least 1
 [[nodiscard]] std::uint64_t samples_of(double rate, std::size_t width, std::size_t height);
-
-namespace detail {
-
-/// Adds the systems of benchmarks/baselines.
-void add_baselines(std::vector<Method>& methods);
-
-}  // namespace detail
 
 }  // namespace quality

@@ -70,7 +70,8 @@ TEST(TwoLevel, HasTwoDensities) {
       }
     }
   }
-  EXPECT_GT(inside / inside_pixels, 8);
+  // 18.7 was measured, with a fifth less allowed.
+  EXPECT_GT(inside / inside_pixels, 15);
 }
 
 TEST(TwoLevel, LowContrastIsBelowTheThreshold) {
@@ -96,8 +97,8 @@ TEST(TwoLevel, WithoutContrastTheExtraSamplesAreSpreadEvenly) {
       std::minmax_element(rendering.samples.begin(), rendering.samples.end());
   // Two base samples, then at most one extra for each in order of contrast, until all pixels are
   // taken; the rest is shared.
-  EXPECT_GE(*least, 2U);
-  EXPECT_LE(*most - *least, 1U);
+  EXPECT_EQ(*least, 8U);
+  EXPECT_EQ(*most, 8U);
 }
 
 TEST(MultiStageFilter, DenseAndSparseClumpsWeighEqually) {
@@ -202,7 +203,7 @@ TEST(PainterSloan, CoversAFlatImageEvenly) {
     most = std::max(most, cell.area());
   }
   // Halving 1024 pixels 1000 times cannot do better than sizes a factor of 2 apart.
-  EXPECT_LE(most / least, 4);
+  EXPECT_NEAR(most / least, 2, 1e-6);
 }
 
 }  // namespace

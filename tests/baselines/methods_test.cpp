@@ -98,7 +98,8 @@ TEST_P(EachMethod, SpendsTheSamplesInsideTheImageAndCountsThem) {
       std::uint64_t calls = 0;
       std::vector<std::uint32_t> counted(width * height, 0);
       const Rendering rendering = render(
-          [&](double x, double y, std::uint64_t id, std::span<float, 3> rgb) {
+          [&, width = width, height = height](double x, double y, std::uint64_t id,
+                                              std::span<float, 3> rgb) {
             ++calls;
             ids.insert(id);
             ASSERT_GE(x, 0);
@@ -151,18 +152,20 @@ TEST_P(EachMethod, TheSeedChangesTheIds) {
 }
 
 TEST_P(EachMethod, KeepsASmoothPicture) {
-  // Far from what any of the filters could blur: at most 1 % of the amplitude for a window of
-  // three pixels, where the second derivative times the window's variance counts.
+  // Far from what any of the filters could blur: less than 1 % of the amplitude for a window of
+  // three pixels, where the second derivative times the window's variance counts. The worst that
+  // was measured is 0.0026.
   const auto smooth = [](double x, double y) { return 1 + 0.5 * std::sin(0.1 * x + 0.07 * y); };
   const Rendering rendering = render(grey(smooth), job_at(48, 40, 16));
-  EXPECT_LT(rms_error(rendering, pixel_means(48, 40, smooth)), 0.01);
+  EXPECT_LT(rms_error(rendering, pixel_means(48, 40, smooth)), 0.0033);
 }
 
 TEST_P(EachMethod, PicturesOfFewSamplesAreFiniteAndRoughlyRight) {
   const auto smooth = [](double x, double) { return x < 24 ? 0.0 : 1.0; };
   const Rendering rendering = render(grey(smooth), job_at(48, 48, 1.0 / 16));
   for (const float value : rendering.pixels) ASSERT_TRUE(std::isfinite(value));
-  // The two halves are told apart: cells are 4 pixels wide, and at most two of them are wrong.
+  // The two halves are told apart: what is summed here is 12 pixels from the edge, three cells, and
+  // nothing of it reaches so far.
   double left = 0;
   double right = 0;
   for (std::size_t y = 0; y < 48; ++y) {
@@ -171,8 +174,8 @@ TEST_P(EachMethod, PicturesOfFewSamplesAreFiniteAndRoughlyRight) {
       right += static_cast<double>(rendering.pixels[(y * 48 + 47 - x) * 3]) / (12 * 48);
     }
   }
-  EXPECT_LT(left, 0.1);
-  EXPECT_GT(right, 0.9);
+  EXPECT_NEAR(left, 0, 1e-6);
+  EXPECT_NEAR(right, 1, 1e-6);
 }
 
 /// The systems that estimate the plain mean of a pixel.
@@ -190,9 +193,10 @@ TEST_P(BoxMethod, ConvergesToTheMeanOfThePixel) {
   const double coarse = error(1);
   const double middle = error(8);
   const double fine = error(64);
-  EXPECT_LT(middle, 0.7 * coarse);
-  EXPECT_LT(fine, 0.7 * middle);
-  EXPECT_LT(fine, 0.01);
+  // The worst that were measured: 0.347, 0.365 and 0.0036; a quarter more is allowed.
+  EXPECT_LT(middle, 0.44 * coarse);
+  EXPECT_LT(fine, 0.46 * middle);
+  EXPECT_LT(fine, 0.0046);
 }
 
 /// The systems that take more samples where the picture has an edge.
@@ -221,14 +225,16 @@ TEST_P(AdaptiveMethod, TakesSamplesWhereThereIsAnEdge) {
     }
   }
   ASSERT_GT(edge_pixels, 20);
-  EXPECT_GT(at_edge / edge_pixels, 3 * elsewhere);
+  // 5.7 times as many were measured where it is the fewest, with a fifth less allowed.
+  EXPECT_GT(at_edge / edge_pixels, 4.6 * elsewhere);
 }
 
 TEST_P(AdaptiveMethod, BeatsAnEvenDistributionAtAnEdge) {
   const std::vector<double> means = pixel_means(64, 64, slanted_edge);
   const Job job = job_at(64, 64, 4);
+  // The worst that was measured: 0.373.
   EXPECT_LT(rms_error(render(grey(slanted_edge), job), means),
-            0.8 * rms_error(method("jittered-box").render(grey(slanted_edge), job), means));
+            0.47 * rms_error(method("jittered-box").render(grey(slanted_edge), job), means));
 }
 
 }  // namespace

@@ -36,8 +36,9 @@ TEST(DippeWold, NoiseWidensTheFilterAndSignalDoesNot) {
   const double in_signal = mean_width(grey([](double x, double y) {
     return std::fmod(std::floor(x) * 0.37 + std::floor(y) * 0.71, 1.0);
   }));
-  EXPECT_GT(in_noise, 2);
-  EXPECT_LT(in_signal, 1.2);
+  // 2.71 was measured, with a fifth less allowed.
+  EXPECT_GT(in_noise, 2.17);
+  EXPECT_EQ(in_signal, 1);
 }
 
 TEST(DippeWold, AThresholdOf0NeverWidens) {
@@ -58,7 +59,7 @@ TEST(DippeWold, ReducesNoise) {
   const double narrow = rms_error(dippe_wold(noise, job, {.threshold = 0}), expected);
   const double tolerant = rms_error(dippe_wold(noise, job, {.threshold = 2}), expected);
   // In pure noise the difference of two averages has at most the sum of their variances, so that
-  // this threshold is mostly not reached.
+  // this threshold is mostly not reached. 0.54 was measured.
   EXPECT_LT(tolerant, 0.6 * narrow);
 }
 
@@ -73,7 +74,8 @@ TEST(AlphaTrimmed, RemovesASpike) {
   // itself, so that the spike is one of seven values, and the largest.
   const Rendering filtered = alpha_trimmed(spiky, {.alpha = 0.2, .distance = 1.2});
   EXPECT_NEAR(filtered.pixels[(4 * 9 + 4) * 3], 0.25, 1e-6);
-  EXPECT_LT(energy(filtered), 0.5 * energy(spiky));
+  // What is left is in the pixels beside it: 0.30 of the energy was measured.
+  EXPECT_LT(energy(filtered), 0.38 * energy(spiky));
 }
 
 TEST(AlphaTrimmed, WithoutTrimmingItIsTheMeanOfTheHexagon) {

@@ -58,7 +58,7 @@ TEST(EqualAreas, AreNearlySquare) {
 }
 
 TEST(Strata, AWholeNumberPerPixelStaysInThePixel) {
-  for (const std::uint64_t per_pixel : {1, 2, 3, 4, 6, 7, 12, 16}) {
+  for (const std::uint64_t per_pixel : {1u, 2u, 3u, 4u, 6u, 7u, 12u, 16u}) {
     const Job job{5, 3, 15 * per_pixel, 0};
     std::vector<std::vector<Rectangle>> in_pixel(15);
     for_each_stratum(job, [&](const Rectangle& tile) {
@@ -85,7 +85,7 @@ TEST(Strata, SidesAreTheTwoNearestFactors) {
 }
 
 TEST(Strata, AnyOtherNumberTilesTheImage) {
-  for (const std::uint64_t samples : {1, 7, 100, 776, 778, 1000}) {
+  for (const std::uint64_t samples : {1u, 7u, 100u, 776u, 778u, 1000u}) {
     const Job job{37, 21, samples, 0};
     std::vector<Rectangle> tiles;
     for_each_stratum(job, [&](const Rectangle& tile) { tiles.push_back(tile); });

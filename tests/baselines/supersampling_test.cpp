@@ -24,7 +24,7 @@ TEST(Supersampling, ErrorOfALinearRampIsThatOfItsStrata) {
   // of 1 / n: the mean of n * n has the variance 1 / (12 n^4), and none is further off than
   // 1 / (2 n).
   const auto ramp = [](double x, double) { return x; };
-  for (const std::uint64_t n : {1, 2, 4}) {
+  for (const std::uint64_t n : {1u, 2u, 4u}) {
     const Rendering rendering = supersampling(grey(ramp), {64, 64, 64 * 64 * n * n, 2});
     double sum = 0;
     for (std::size_t i = 0; i < 64 * 64; ++i) {
