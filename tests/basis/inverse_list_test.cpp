@@ -97,8 +97,8 @@ TEST_P(AtUsualRates, InverseIsTheDenseInverseOfTheWholeList) {
     ASSERT_EQ(list.inverse(index).size(), terms * (terms + 1) / 2);
     if (!chosen(list, index)) return;
     const Matrix expected = oracle::inverse(j.leading(terms));
-    // A condition below 15 times a thousand roundings of 1e-16 stays far below.
-    ASSERT_LT(relative_error(list.inverse(index), expected), 1e-10L) << "index " << index;
+    // 1.7e-15 was measured; other compilers round in another order.
+    ASSERT_LT(relative_error(list.inverse(index), expected), 5e-15L) << "index " << index;
   });
 }
 
@@ -163,7 +163,8 @@ void expect_derived_vectors(const InverseList& list, std::size_t count, Real rel
 }
 
 TEST_P(AtUsualRates, GainAndBorderFollowFromTheInverse) {
-  expect_derived_vectors(InverseList(at_rate(GetParam())), 400, 1e-10L);
+  // 6e-17 was measured.
+  expect_derived_vectors(InverseList(at_rate(GetParam())), 400, 2e-16L);
 }
 
 TEST(InverseList, RowsAreTheGainsRoundedToFloat) {

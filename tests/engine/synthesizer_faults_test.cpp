@@ -47,7 +47,7 @@ TEST_P(BadValue, RegionInsideABlockLeavesAllOtherBlocksAlone) {
       },
       StopRule{});
   EXPECT_EQ(engine.stats().bad_samples, bad.size());
-  EXPECT_GT(bad.size(), 20u);
+  EXPECT_GT(bad.size(), 36u) << "45 were measured";
   const FrequencyImage image = engine.image(), expected = clean.image();
   EXPECT_TRUE(helpers::all_finite(helpers::coefficients_of(image)));
   for (std::size_t y = 0; y < 4; ++y) {
@@ -155,7 +155,7 @@ TEST(Faults, BatchSamplerThatThrowsLosesItsBatchOnly) {
     }
     ASSERT_EQ(engine.stats().samples, delivered);
   }
-  EXPECT_GT(failures, 3);
+  EXPECT_GT(failures, 79) << "99 were measured";
   EXPECT_TRUE(helpers::same_image(engine.image(), straight.image()));
 }
 
@@ -179,7 +179,7 @@ TEST(Faults, SamplerMayThrowOnAnyThread) {
     }
     ASSERT_EQ(engine.stats().samples, static_cast<std::uint64_t>(returned.load()));
   }
-  EXPECT_GT(failures, 5);
+  EXPECT_GE(failures, 12) << "15 throws, of which two may fall into one run";
   EXPECT_TRUE(helpers::same_image(engine.image(), straight.image()));
 }
 

@@ -38,9 +38,8 @@ TEST(SynthesizerSettings, ConstantImageIsSampledEvenly) {
     const FrequencyImage image = engine.image();
     const auto counts = counts_of(image);
     const auto [least, most] = std::minmax_element(counts.begin(), counts.end());
-    // Blocks get border samples for nothing when a neighbour is ahead; about one level of the
-    // quad-tree at most lies between the first and the last block.
-    EXPECT_LE(*most, 2 * *least) << "value " << value;
+    // Blocks get border samples for nothing when a neighbour is ahead: 143 to 145 were measured.
+    EXPECT_LE(4 * *most, 5 * *least) << "value " << value;
     for (std::size_t b = 0; b < counts.size(); ++b) {
       EXPECT_FLOAT_EQ(image.coefficients(b % 16, b / 16, 0)[0], 8 * value);
     }
@@ -124,7 +123,7 @@ TEST(SynthesizerSettings, ImportantBlocksGetMoreSamples) {
   // Equally busy everywhere.
   engine.run(busy, at_samples(2000));
   const auto [left, right] = halves(engine.image());
-  EXPECT_GT(left, 3 * right / 2);
+  EXPECT_GT(left, 9 * right / 2) << "5.8 times as many were measured";
 }
 
 TEST(SynthesizerSettings, ChannelWeightsChooseWhatMatters) {
@@ -142,8 +141,9 @@ TEST(SynthesizerSettings, ChannelWeightsChooseWhatMatters) {
   };
   const auto first = sampled_with({1, 0});
   const auto second = sampled_with({0, 1});
-  EXPECT_GT(first.first, 2 * first.second);
-  EXPECT_GT(second.second, 2 * second.first);
+  // 10.7 and 12.7 times as many were measured.
+  EXPECT_GT(first.first, 8 * first.second);
+  EXPECT_GT(second.second, 10 * second.first);
   EXPECT_EQ(sampled_with({0.5f, 0.5f}), sampled_with({})) << "equal weights are the default";
 }
 

@@ -267,8 +267,9 @@ TEST(Synthesizer, AnyOtherScaleChangesLittle) {
       const auto low = std::min(counts[b], other[b]);
       differences += std::max(counts[b], other[b]) - low;
     }
-    // Only rounding differs: it can exchange blocks of almost equal priority, one sample each.
-    EXPECT_LE(differences, engine.stats().absorbed / 100) << "factor " << factor;
+    // Only rounding differs: it can exchange blocks of almost equal priority, one sample each. None
+    // was measured.
+    EXPECT_LE(differences, 4u) << "factor " << factor;
   }
 }
 

@@ -110,7 +110,8 @@ TEST(QuantizationTarget, PredictedVariancesAreThoseOfNoise) {
   for (std::size_t i = 0; i < max_terms; ++i) {
     EXPECT_NEAR(squares[i] / double{list->variances(samples - 1)[i]}, 1, 0.12) << i;
   }
-  EXPECT_NEAR(residuals / (samples - max_terms), 1, 0.02);
+  // 544 000 squared residuals, of a uniform variable: a standard deviation of .0012.
+  EXPECT_NEAR(residuals / (samples - max_terms), 1, 0.004);
 }
 
 /// Y of a picture with a flat left half and a busy right half.
@@ -132,7 +133,7 @@ TEST(QuantizationTarget, EndsByItselfAndSamplesWhatTheQuantizerKeeps) {
     EXPECT_LT(image.samples(0, 4) * 3, image.samples(6, 4) * 2);
     return engine.stats().samples;
   };
-  EXPECT_LT(samples_at(10), samples_at(95));
+  EXPECT_LT(20 * samples_at(10), samples_at(95)) << "1892 and 55556 were measured";
 }
 
 TEST(QuantizationTarget, TheToleranceIsAShareOfTheQuantizersOwnError) {
@@ -178,11 +179,11 @@ TEST(QuantizationTarget, NoiseIsSampledUntilTheQuantizerHardlyNotices) {
     return std::pair(engine.stats().samples, static_cast<double>(wrong) / (64 * 63));
   };
   const auto [samples, wrong] = synthesize(true);
-  EXPECT_LT(wrong, 0.046);
+  EXPECT_LT(wrong, 0.00155) << ".00124 was measured";
   // Not from sampling without end: half of the samples would leave more.
   EXPECT_GT(wrong, 0.001);
-  // Noise that is not said to be there gets too few.
-  EXPECT_LT(synthesize(false).first, samples);
+  // Noise that is not said to be there gets too few: 30555 against 75088.
+  EXPECT_LT(2 * synthesize(false).first, samples);
 }
 
 // A pattern that repeats with the first lattices of a block looks flat there. Its neighbours, of
@@ -200,8 +201,8 @@ TEST(QuantizationTarget, NeighboursKeepALuckyBlockInDoubt) {
   settings.quantization = quantization_target(quantization, 1);
   Synthesizer engine(settings);
   engine.run(lines, {.samples_per_pixel = 16});
-  // The lattice of pixels is complete after 81 samples.
-  EXPECT_GT(engine.image().samples(2, 2), 81u);
+  // The lattice of pixels is complete after 81 samples; 285 were measured.
+  EXPECT_GT(engine.image().samples(2, 2), 228u);
 }
 
 TEST(QuantizationTarget, AFlatFirstImpressionIsNotTrusted) {
@@ -215,7 +216,8 @@ TEST(QuantizationTarget, AFlatFirstImpressionIsNotTrusted) {
   Synthesizer engine(settings);
   engine.run(spots, {.samples_per_pixel = 16});
   const FrequencyImage image = engine.image();
-  for (std::size_t b = 0; b < 16; ++b) EXPECT_GT(image.samples(b % 4, b / 4), 25u) << b;
+  for (std::size_t b = 0; b < 16; ++b)
+    EXPECT_GT(image.samples(b % 4, b / 4), 540u) << b << ": 684 or more";
 }
 
 }  // namespace
