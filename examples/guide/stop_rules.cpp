@@ -42,7 +42,7 @@ int main() {
     show("soft", soft, {.samples_per_pixel = most});
     show("stripes", stripes, {.samples_per_pixel = most});
   }
-  for (const double threshold : {0.03, 0.01, 0.003}) {
+  for (const double threshold : {0.01, 0.003, 0.001}) {
     show("soft", soft, {.samples_per_pixel = 16, .aliasing_threshold = threshold});
     show("stripes", stripes, {.samples_per_pixel = 16, .aliasing_threshold = threshold});
   }
