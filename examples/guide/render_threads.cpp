@@ -20,8 +20,10 @@ static void render(freqsynth::Synthesizer& engine, const std::atomic<bool>& canc
     rays.resize(64);
     rays.resize(engine.request(rays));
     if (rays.empty()) {
-      // Either a stop rule holds, or the others still owe the rest of the wave.
-      if (engine.stopped() != freqsynth::StopReason::waiting) return;
+      // Either a stop rule holds, or the others still owe the rest of the wave. Empty: they have
+      // just brought it.
+      const auto reason = engine.stopped();
+      if (reason && reason != freqsynth::StopReason::waiting) return;
       std::this_thread::yield();
       continue;
     }
