@@ -1,5 +1,5 @@
 # Fails unless the ```cpp blocks of README are the files EXAMPLES of FOLDER, one each and in this
-# order, trailing newlines aside.
+# order, but for trailing newlines and the line with the licence.
 #   cmake -DREADME=README.md -DFOLDER=examples -DEXAMPLES=a.cpp,b.cpp -P check_readme.cmake
 cmake_minimum_required(VERSION 3.25)
 
@@ -24,6 +24,7 @@ foreach(file IN LISTS EXAMPLES)
   string(SUBSTRING "${rest}" ${end} -1 rest)
 
   file(READ "${FOLDER}/${file}" example)
+  string(REGEX REPLACE "^// SPDX-License-Identifier: [^\n]*\n" "" example "${example}")
   string(REGEX REPLACE "\n+$" "" block "${block}")
   string(REGEX REPLACE "\n+$" "" example "${example}")
   if(NOT block STREQUAL example)

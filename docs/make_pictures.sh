@@ -19,6 +19,19 @@ for scene in fan chess; do
     -o "$root/docs/${scene}_frames.jpg"
 done
 
+# Pieces of a larger chess board, pixel for pixel: a few men and a corner of the board. Jittered
+# samples, freqsynth with as many, and 256 times as many jittered ones as the truth.
+large() { "$root/examples/run.sh" --scene chess --size 1024x1024 "$@"; }
+large --reference 1 -o "$out/large_jittered.png"
+large --spp 1 -o "$out/large.png"
+large --reference 256 -o "$out/large_truth.png"
+for piece in 264x176+610+570 264x176+720+680; do
+  oiiotool "$out/large_jittered.png" --cut $piece "$out/large.png" --cut $piece \
+    "$out/large_truth.png" --cut $piece --mosaic:pad=8 3x1 -o "$out/piece_$piece.png"
+done
+oiiotool "$out/piece_264x176+610+570.png" "$out/piece_264x176+720+680.png" --mosaic:pad=8 1x2 \
+  --compression jpeg:92 -o "$root/docs/chess_pieces.jpg"
+
 # The same samples averaged as display values and as light.
 for average in display light; do
   "$root/examples/run.sh" --scene fan --size 128x128 --spp 16 --direct --quality 95 \

@@ -1,0 +1,60 @@
+// A sampler with noise, a Monte Carlo estimate seeded by the request's id, and one without.
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <vector>
+
+#include "freqsynth/freqsynth.h"
+
+constexpr std::size_t side = 128;
+
+// The mean of the estimates: a disc with a soft shadow.
+static double truth(double x, double y) {
+  const double distance = std::hypot(x - 64, y - 64);
+  return distance < 40 ? 1.0 : 0.5 - 0.5 * std::exp((40 - distance) / 20);
+}
+
+// A random number in [0, 1) that depends on the id alone (splitmix64).
+static double chance(std::uint64_t id) {
+  id = (id ^ id >> 30) * 0xbf58476d1ce4e5b9u;
+  id = (id ^ id >> 27) * 0x94d049bb133111ebu;
+  return static_cast<double>((id ^ id >> 31) >> 11) / 9007199254740992.0;
+}
+
+// Returns the truth times a random number around 1: a sampler that sees the whole request.
+struct Estimate {
+  double spread;  // 0: no noise; 1: factors from 0 to 2
+
+  double operator()(const freqsynth::Request& request) const {
+    return truth(request.x, request.y) * (1 + spread * (2 * chance(request.id + 1) - 1));
+  }
+};
+
+static double error_of(const freqsynth::FrequencyImage& image) {
+  const std::vector<float> pixels = freqsynth::reconstruct(image);
+  double sum = 0;
+  for (std::size_t p = 0; p < pixels.size(); ++p) {
+    double mean = 0;
+    for (int k = 0; k < 64; ++k) {
+      mean += truth(static_cast<double>(p % side) + (k % 8 + 0.5) / 8,
+                    static_cast<double>(p / side) + (k / 8 + 0.5) / 8);
+    }
+    sum += std::pow(pixels[p] - mean / 64, 2);
+  }
+  return std::sqrt(sum / static_cast<double>(pixels.size()));
+}
+
+static double measure(double spread, bool noisy, double samples_per_pixel) {
+  freqsynth::Synthesizer engine({.width = side, .height = side, .channels = 1, .noisy = noisy});
+  engine.run(Estimate{spread}, {.samples_per_pixel = samples_per_pixel});
+  return error_of(engine.finished_image());
+}
+
+int main() {
+  std::printf("          sampler with noise          without noise\n");
+  std::printf("samples   noisy = false      true     noisy = false      true\n");
+  for (const double samples : {0.25, 1.0, 4.0, 16.0}) {
+    std::printf("%7.2f %15.4f %9.4f %17.4f %9.4f\n", samples, measure(1, false, samples),
+                measure(1, true, samples), measure(0, false, samples), measure(0, true, samples));
+  }
+}
