@@ -9,6 +9,7 @@ set(FREQSYNTH_LAYERS
   "basis/aligned.h|memory that starts on a cache line|"
   "basis/kernels.h|the vectorised inner loops|"
   "basis/dct.h|cosine terms at any point, zig-zag order, forward and inverse transform|2, eqs. 1, 2, 34"
+  "basis/edge_spectrum.h|what terms are expected to hold before samples tell|"
   "basis/sample_sequence.h|the quad-tree order of samples, and which sample is whose partner across an edge|4.3.1"
   "basis/normal_inverse.h|J and its inverse, growing: Powell's rank-one update, Frobenius bordering|4.1.2, 4.2"
   "basis/list_settings.h|what a list of inverse matrices depends on|4.2.1, 4.3"
