@@ -5,7 +5,7 @@
 
 #include "freqsynth/jpeg/display_encoding.h"
 #ifdef FREQSYNTH_HAS_JPEG
-#include "freqsynth/jpeg/jpeg.h"
+#include "freqsynth/jpeg/jpeg_file.h"
 #endif
 
 freqsynth::QuantizationSettings quantization_of(const Options& options) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "freqsynth/basis/dct.h"
 #include "support/oracles.h"
 
 namespace freqsynth {

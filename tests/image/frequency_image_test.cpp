@@ -8,6 +8,8 @@
 #include <string>
 #include <utility>
 
+#include "freqsynth/engine/block_grid.h"
+
 namespace freqsynth {
 namespace {
 

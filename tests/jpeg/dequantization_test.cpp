@@ -1,3 +1,5 @@
+#include "freqsynth/jpeg/dequantization.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

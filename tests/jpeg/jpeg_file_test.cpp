@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "freqsynth/jpeg/jpeg.h"
+#include "freqsynth/jpeg/jpeg_file.h"
 #include "support/jpeg_helpers.h"
 #include "support/quantization_helpers.h"
 

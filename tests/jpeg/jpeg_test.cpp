@@ -12,6 +12,9 @@
 #include <vector>
 
 #include "freqsynth/image/reconstructor.h"
+#include "freqsynth/jpeg/dequantization.h"
+#include "freqsynth/jpeg/jpeg_file.h"
+#include "freqsynth/jpeg/quantization.h"
 #include "support/jpeg_helpers.h"
 #include "support/quantization_helpers.h"
 
