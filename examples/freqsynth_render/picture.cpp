@@ -75,8 +75,8 @@ void write_picture(const std::string& file, const Picture& picture, const JpegSe
       write_pfm(name, {picture.width, picture.height, picture.channels, values});
       return;
     }
-    // In memory where the format allows: writers of OpenImageIO 2.4 do not notice a full disk (PNG),
-    // or end the program (JPEG).
+    // In memory where the format allows: writers of OpenImageIO 2.4 do not notice a full disk
+    // (PNG), or end the program (JPEG).
     OIIO::Filesystem::IOVecOutput memory;
     const auto output = OIIO::ImageOutput::create(file);
     if (!output) throw std::runtime_error(OIIO::geterror());
