@@ -26,6 +26,7 @@
 #include <utility>
 #include <vector>
 
+#include "freqsynth/engine/block_grid.h"
 #include "freqsynth/engine/thread_pool.h"
 #include "freqsynth/freqsynth.h"
 #include "freqsynth_render/option_values.h"

@@ -10,7 +10,6 @@
 #include <string>
 
 #include "direct.h"
-#include "freqsynth/basis/sample_sequence.h"
 #include "freqsynth/engine/thread_pool.h"
 #include "freqsynth/freqsynth.h"
 #include "options.h"

@@ -5,10 +5,13 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "direct.h"
+#include "freqsynth/basis/sample_sequence.h"
+#include "freqsynth/engine/thread_pool.h"
 #include "freqsynth/freqsynth.h"
 #include "picture.h"
 #include "progress_bar.h"
@@ -90,11 +93,12 @@ freqsynth::SynthesisSettings settings_of(const Options& options, const scenes::S
                                                            settings.channels, options.tolerance);
   }
   // Room for blocks with four times the average.
-  const double generous = 4 * 64 * options.samples_per_pixel;
-  settings.max_samples_per_block = static_cast<std::size_t>(
-      options.until_quality
-          ? 4096
-          : std::clamp<double>(generous, 4096, freqsynth::SampleSequence::max_size));
+  if (std::isfinite(options.samples_per_pixel)) {
+    constexpr auto most = static_cast<double>(freqsynth::SampleSequence::max_size);
+    const double generous = std::min(4 * 64 * options.samples_per_pixel, most);
+    settings.max_samples_per_block =
+        std::max(settings.max_samples_per_block, static_cast<std::size_t>(generous));
+  }
   return settings;
 }
 
@@ -163,6 +167,9 @@ class Synthesis {
                                             : run(sampler);
     seconds_.sampler += report.sampler_seconds;
     seconds_.core += report.core_seconds;
+    if (report.reason == freqsynth::StopReason::unusable) {
+      throw std::runtime_error("not one sample of the scene is a finite number");
+    }
     if (report.reason == freqsynth::StopReason::exhausted) {
       std::fprintf(stderr, "freqsynth_render: every block has its %zu samples\n",
                    engine_.settings().max_samples_per_block);
