@@ -23,7 +23,8 @@ endif()
 add_library(freqsynth_jpeg src/jpeg/jpeg.cpp src/jpeg/jpeg_file.cpp)
 add_library(freqsynth::jpeg ALIAS freqsynth_jpeg)
 target_sources(freqsynth_jpeg PUBLIC
-  FILE_SET HEADERS BASE_DIRS include FILES include/freqsynth/jpeg/jpeg.h)
+  FILE_SET HEADERS BASE_DIRS include FILES
+  include/freqsynth/jpeg/jpeg.h include/freqsynth/jpeg/jpeg_file.h)
 target_link_libraries(freqsynth_jpeg PUBLIC freqsynth PRIVATE JPEG::JPEG)
 set_target_properties(freqsynth_jpeg PROPERTIES
   EXPORT_NAME jpeg

@@ -1,6 +1,6 @@
 # The layer table: the one list of the library's headers, lowest first, each as
 #   header | what it does | section of the paper
-# The build installs exactly these (jpeg/jpeg.h with its component), check_layers.cmake lets each
+# The build installs exactly these (jpeg/jpeg.h and jpeg/jpeg_file.h with their component), check_layers.cmake lets each
 # include only headers that stand above it, and the README's table is made from it.
 set(FREQSYNTH_LAYERS
   "basis/config.h|version, block size, assertion|"
@@ -36,14 +36,21 @@ set(FREQSYNTH_LAYERS
   "engine/sampling_loop.h|the loop behind `run`|"
   "image/butterworth.h|the low-pass filter against what aliasing is left|4.5"
   "image/frequency_image.h|the result: coefficients and sample counts per block|4"
+  "image/pixel_view.h|an image in the caller's own memory|"
   "image/pixel_finisher.h|finished pixels: the fit and what it leaves over (beyond the paper)|"
   "image/block_images.h|images of a store of blocks|4"
+  "image/axis_weights.h|what each frequency is worth in each pixel of another resolution|4.5"
   "image/reconstructor.h|frequency image to pixels of any size, or to a value at a point|4.5"
   "jpeg/quantization_target.h|a stop rule and priority for a synthesis that ends in a quantiser|1, 2, 6"
   "jpeg/quantizer_measure.h|the measure of such a synthesis|1, 2, 6"
-  "jpeg/quantization.h|JPEG tables, quantised blocks, chroma at half the resolution|2, eq. 3"
+  "jpeg/quantization_tables.h|the tables of the JPEG standard, finer and coarser|2"
+  "jpeg/quantized_image.h|quantised blocks as a plain value|2"
+  "jpeg/block_scaling.h|blocks of one resolution to blocks of another, in frequencies|"
+  "jpeg/quantization.h|frequency image to quantised blocks, chroma at half the resolution|2, eq. 3"
+  "jpeg/dequantization.h|the way back|2"
   "jpeg/display_encoding.h|linear radiance to the signal of a JPEG file, per sample or per pixel|2"
-  "jpeg/jpeg.h|component `freqsynth::jpeg`: quantised blocks to a JPEG file and back, with libjpeg|2"
+  "jpeg/jpeg.h|component `freqsynth::jpeg`: quantised blocks to the bytes of a JPEG file and back, with libjpeg|2"
+  "jpeg/jpeg_file.h|the same component: to a file and back|2"
   "synthesizer.h|the engine as hosts use it: request, deliver, run, images|4"
   "freqsynth.h|what a host needs|"
 )

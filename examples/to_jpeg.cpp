@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "freqsynth/freqsynth.h"
-#include "freqsynth/jpeg/jpeg.h"
+#include "freqsynth/jpeg/jpeg_file.h"
 
 int main() {
   // Linear luminance of a function: here rings. With 3 channels it would be linear RGB.

@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "freqsynth/engine/block_grid.h"
 #include "freqsynth/engine/thread_pool.h"
 #include "freqsynth_render/option_values.h"
 #include "quality/tune_measure.h"

@@ -6,15 +6,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 
 #include "freqsynth/basis/dct.h"
 #include "freqsynth/image/reconstructor.h"
+#include "freqsynth/jpeg/dequantization.h"
 #include "freqsynth/jpeg/display_encoding.h"
 #ifdef FREQSYNTH_HAS_JPEG
-#include "freqsynth/jpeg/jpeg.h"
+#include "freqsynth/jpeg/jpeg_file.h"
 #endif
 
 namespace {
@@ -109,6 +112,12 @@ bool is_jpeg(const std::string& file) {
 }  // namespace
 
 Coefficients read_coefficients(const std::string& file, [[maybe_unused]] bool pixels) {
+  // A device may have no end, and a pipe cannot be read twice.
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(file, error);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+    throw std::runtime_error(file + ": not a regular file");
+  }
 #ifdef FREQSYNTH_HAS_JPEG
   if (!pixels && is_jpeg(file)) return {freqsynth::dequantize(freqsynth::read_jpeg(file)), true};
 #endif

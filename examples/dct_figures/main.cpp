@@ -18,6 +18,7 @@
 
 #include "coefficients.h"
 #include "freqsynth/basis/dct.h"
+#include "freqsynth/jpeg/dequantization.h"
 #include "freqsynth/jpeg/quantization.h"
 #include "mountain.h"
 

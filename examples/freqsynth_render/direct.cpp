@@ -4,8 +4,9 @@
 #include <stdexcept>
 
 #include "freqsynth/jpeg/display_encoding.h"
+#include "picture.h"
 #ifdef FREQSYNTH_HAS_JPEG
-#include "freqsynth/jpeg/jpeg.h"
+#include "freqsynth/jpeg/jpeg_file.h"
 #endif
 
 freqsynth::QuantizationSettings quantization_of(const Options& options) {
@@ -19,7 +20,10 @@ freqsynth::QuantizationSettings quantization_of(const Options& options) {
 
 #ifdef FREQSYNTH_HAS_JPEG
 
-void check_direct() {}
+void check_direct(const Options& options) {
+  check_jpeg_size(options.output, options.width, options.height);
+  check_writable(options.output);
+}
 
 void write_direct(const Options& options, const freqsynth::FrequencyImage& image) {
   const bool pixels = options.averaging == Averaging::light;
@@ -35,10 +39,12 @@ void write_direct(const Options& options, const freqsynth::FrequencyImage& image
 
 #else
 
-void check_direct() {
+void check_direct(const Options&) {
   throw std::runtime_error("--direct: this program was built without libjpeg");
 }
 
-void write_direct(const Options&, const freqsynth::FrequencyImage&) { check_direct(); }
+void write_direct(const Options& options, const freqsynth::FrequencyImage&) {
+  check_direct(options);
+}
 
 #endif

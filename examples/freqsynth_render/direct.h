@@ -14,5 +14,6 @@ freqsynth::QuantizationSettings quantization_of(const Options& options);
 ///         libjpeg.
 void write_direct(const Options& options, const freqsynth::FrequencyImage& image);
 
-/// \throws std::runtime_error when write_direct() would for want of libjpeg.
-void check_direct();
+/// Says before the work what write_direct() would say after it.
+/// \throws std::runtime_error naming the file and the reason, or for want of libjpeg.
+void check_direct(const Options& options);

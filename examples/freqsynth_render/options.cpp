@@ -31,24 +31,20 @@ void read_name(std::string_view option, const std::string& text,
   choice = static_cast<Choice>(text == names[1]);
 }
 
-}  // namespace
-
-std::optional<Options> parse_options(int argc, const char** argv) {
-  Options options;
+/// The values of options as they were given; empty: not given.
+struct Texts {
   std::string size, spp, reference, wave, seed, threads, terms_every, cutoff, order, pixel_filter;
-  std::string scale, channels, zone_frequency, average, quality, until_quality, subsampling,
-      tolerance;
+  std::string scale, channels, zone_frequency, average;
+  std::string quality, until_quality, subsampling, tolerance;
   bool no_butterworth = false;
   bool help = false;
+};
 
-  OIIO::ArgParse parser;
-  parser.intro("freqsynth_render: renders a scene by adaptive synthesis in the frequency domain");
-  parser.usage(usage_line);
-  parser.add_help(false).exit_on_error(false);
-  parser.arg("--help", &help).help("Print this help");
+void describe_outputs(OIIO::ArgParse& parser, Options& options, Texts& texts) {
+  parser.arg("--help", &texts.help).help("Print this help");
   parser.arg("--scene %s:NAME", &options.scene).help(scenes::scene_list() + " (chess)");
-  parser.arg("--size %s:WxH", &size).help("Image size in pixels (512x512)");
-  parser.arg("--spp %s:N", &spp).help("Average samples per pixel, fractions included (1)");
+  parser.arg("--size %s:WxH", &texts.size).help("Image size in pixels (512x512)");
+  parser.arg("--spp %s:N", &texts.spp).help("Average samples per pixel, fractions included (1)");
   parser.arg("-o %s:FILE", &options.output)
       .help("The picture: EXR and PFM hold linear values, PNG and JPEG are display-encoded (sRGB)");
   parser.arg("--density %s:FILE", &options.density)
@@ -56,95 +52,125 @@ std::optional<Options> parse_options(int argc, const char** argv) {
   parser.arg("--frames %s:DIR", &options.frames)
       .help("Pictures at 1/64, 1/32 .. 2 samples per pixel of one run, and a contact sheet");
   parser.arg("--stats %s:FILE", &options.stats).help("Figures of the run as JSON");
-  parser.arg("--reference %s:N", &reference)
+  parser.arg("--reference %s:N", &texts.reference)
       .help("Instead: N jittered samples per pixel, averaged over each pixel");
-  parser.arg("--wave %s:N", &wave).help("Blocks sampled between two choices; 1 = strict order");
-  parser.arg("--seed %s:N", &seed).help("Seed of the random choices (0)");
-  parser.arg("--threads %s:N", &threads).help("Threads that call the scene (all)");
-  parser.arg("--terms-every %s:N", &terms_every).help("Samples per added cosine term (2.5)");
-  parser.arg("--cutoff %s:C", &cutoff).help("Butterworth cutoff C sqrt(n) (0.8)");
-  parser.arg("--order %s:M", &order).help("Butterworth order (2)");
-  parser.arg("--no-butterworth", &no_butterworth).help("Do not filter");
-  parser.arg("--pixel-filter %s:NAME", &pixel_filter)
+}
+
+void describe_method(OIIO::ArgParse& parser, Options& options, Texts& texts) {
+  parser.arg("--wave %s:N", &texts.wave)
+      .help("Blocks sampled between two choices; 1 = strict order");
+  parser.arg("--seed %s:N", &texts.seed).help("Seed of the random choices (0)");
+  parser.arg("--threads %s:N", &texts.threads).help("Threads that call the scene (all)");
+  parser.arg("--terms-every %s:N", &texts.terms_every).help("Samples per added cosine term (2.5)");
+  parser.arg("--cutoff %s:C", &texts.cutoff).help("Butterworth cutoff C sqrt(n) (0.8)");
+  parser.arg("--order %s:M", &texts.order).help("Butterworth order (2)");
+  parser.arg("--no-butterworth", &texts.no_butterworth).help("Do not filter");
+  parser.arg("--pixel-filter %s:NAME", &texts.pixel_filter)
       .help("none: the fit at the pixels' centres; box: averages over the pixels (box)");
   parser.arg("--no-residuals", &options.no_residuals)
       .help("The paper's estimate: the fit alone, without what it leaves over");
-  parser.arg("--scale %s:S", &scale).help("Size of the output relative to --size (1)");
-  parser.arg("--channels %s:NAME", &channels).help("rgb or gray (rgb)");
-  parser.arg("--zone-frequency %s:F", &zone_frequency)
+  parser.arg("--scale %s:S", &texts.scale).help("Size of the output relative to --size (1)");
+  parser.arg("--channels %s:NAME", &texts.channels).help("rgb or gray (rgb)");
+  parser.arg("--zone-frequency %s:F", &texts.zone_frequency)
       .help("zoneplate: cycles per pixel at the corner");
-  parser.arg("--average %s:NAME", &average)
+  parser.arg("--average %s:NAME", &texts.average)
       .help("light: radiance; display: encoded values (light, with --direct display)");
+}
+
+void describe_jpeg(OIIO::ArgParse& parser, Options& options, Texts& texts) {
   parser.separator("JPEG files:");
-  parser.arg("--quality %s:Q", &quality).help("1..100, as libjpeg counts (95; with --direct 75)");
-  parser.arg("--subsampling %s:NAME", &subsampling).help("444, or 420: chroma halved (444)");
+  parser.arg("--quality %s:Q", &texts.quality)
+      .help("1..100, as libjpeg counts (95; with --direct 75)");
+  parser.arg("--subsampling %s:NAME", &texts.subsampling).help("444, or 420: chroma halved (444)");
   parser.arg("--direct", &options.direct)
       .help("Quantise the fitted coefficients: no pixel is ever made, unless --average light");
   parser.arg("--progressive", &options.progressive).help("With --direct: coarse to fine");
-  parser.arg("--until-quality %s:Q", &until_quality)
+  parser.arg("--until-quality %s:Q", &texts.until_quality)
       .help(
           "--direct --quality Q that samples until the quantiser would hardly notice; --spp is a "
           "limit then");
-  parser.arg("--tolerance %s:T", &tolerance)
+  parser.arg("--tolerance %s:T", &texts.tolerance)
       .help("With --until-quality: error of sampling relative to the quantiser's own (0.25)");
-  if (parser.parse_args(argc, argv) < 0) throw UsageError(parser.geterror());
-  if (help) {
-    parser.print_help();
-    return std::nullopt;
-  }
+}
 
-  read_size("--size", size, options.width, options.height);
-  read_positive("--spp", spp, options.samples_per_pixel);
-  read_count<std::size_t>("--reference", reference, 1, options.reference);
-  read_count<std::size_t>("--wave", wave, 1, options.wave);
-  read_count<std::uint64_t>("--seed", seed, 0, options.seed);
-  read_count<std::size_t>("--threads", threads, 1, options.threads);
-  read_positive("--terms-every", terms_every, options.terms_every);
-  read_positive("--cutoff", cutoff, options.butterworth.cutoff);
-  read_positive("--order", order, options.butterworth.order);
-  read_positive("--scale", scale, options.scale);
-  options.butterworth.enabled = !no_butterworth;
-  if (!zone_frequency.empty()) {
-    read_positive("--zone-frequency", zone_frequency, options.zone_frequency.emplace());
+void read_method(const Texts& texts, Options& options) {
+  read_size("--size", texts.size, options.width, options.height);
+  read_positive("--spp", texts.spp, options.samples_per_pixel);
+  read_count<std::size_t>("--reference", texts.reference, 1, options.reference);
+  read_count<std::size_t>("--wave", texts.wave, 1, options.wave);
+  read_count<std::uint64_t>("--seed", texts.seed, 0, options.seed);
+  read_count<std::size_t>("--threads", texts.threads, 1, options.threads);
+  if (options.threads > 1024) refuse("--threads", texts.threads, "in 1..1024");
+  read_positive("--terms-every", texts.terms_every, options.terms_every);
+  if (options.terms_every < 1) refuse("--terms-every", texts.terms_every, "at least 1");
+  read_positive("--cutoff", texts.cutoff, options.butterworth.cutoff);
+  read_positive("--order", texts.order, options.butterworth.order);
+  options.butterworth.enabled = !texts.no_butterworth;
+  read_positive("--scale", texts.scale, options.scale);
+  if (!texts.zone_frequency.empty()) {
+    read_positive("--zone-frequency", texts.zone_frequency, options.zone_frequency.emplace());
   }
-  read_name("--pixel-filter", pixel_filter, {"none", "box"}, options.pixel_filter);
-  read_name("--channels", channels, {"rgb", "gray"}, options.gray);
-  read_quality("--until-quality", until_quality, options.until_quality);
+  read_name("--pixel-filter", texts.pixel_filter, {"none", "box"}, options.pixel_filter);
+  read_name("--channels", texts.channels, {"rgb", "gray"}, options.gray);
+}
+
+/// What depends on whether coefficients become a JPEG file.
+void read_jpeg(const Texts& texts, Options& options) {
+  read_quality("--until-quality", texts.until_quality, options.until_quality);
   options.direct = options.direct || options.until_quality;
   std::optional<int> file_quality = options.until_quality;
-  read_quality("--quality", quality, file_quality);
+  read_quality("--quality", texts.quality, file_quality);
   options.quality = file_quality.value_or(options.direct ? 75 : 95);
-  read_positive("--tolerance", tolerance, options.tolerance);
-  if (options.until_quality && spp.empty()) {
+  read_positive("--tolerance", texts.tolerance, options.tolerance);
+  if (options.until_quality && texts.spp.empty()) {
     options.samples_per_pixel = std::numeric_limits<double>::infinity();
   }
   if (options.direct) options.averaging = Averaging::display;
-  read_name("--average", average, {"light", "display"}, options.averaging);
-  read_name("--subsampling", subsampling, {"444", "420"}, options.subsampling);
-  if (options.until_quality && options.averaging == Averaging::light) {
-    throw UsageError("--until-quality: has no --average light");
+  read_name("--average", texts.average, {"light", "display"}, options.averaging);
+  read_name("--subsampling", texts.subsampling, {"444", "420"}, options.subsampling);
+}
+
+/// Options that do not go together.
+void check_combinations(const Texts& texts, const Options& options) {
+  const auto refuse_if = [](bool wrong, const char* why) {
+    if (wrong) throw UsageError(why);
+  };
+  const bool has_frames = !options.frames.empty();
+  refuse_if(options.until_quality && options.averaging == Averaging::light,
+            "--until-quality: has no --average light");
+  refuse_if(options.direct && (options.output.empty() || options.scale != 1 ||
+                               options.reference != 0 || has_frames),
+            "--direct: needs -o and has no --frames, --scale and --reference");
+  refuse_if(options.direct && options.pixel_filter == freqsynth::PixelFilter::none,
+            "--direct: averages over pixels, has no --pixel-filter none");
+  refuse_if(options.progressive && !options.direct, "--progressive: needs --direct");
+  refuse_if(!texts.tolerance.empty() && !options.until_quality,
+            "--tolerance: needs --until-quality");
+  refuse_if(options.output.empty() && !has_frames, "-o: no output file is named");
+  refuse_if(options.reference != 0 && (has_frames || !options.density.empty()),
+            "--reference: has no --frames and no --density");
+  refuse_if(options.reference != 0 && options.scale != 1, "--reference: has no --scale");
+}
+
+}  // namespace
+
+std::optional<Options> parse_options(int argc, const char** argv) {
+  Options options;
+  Texts texts;
+  OIIO::ArgParse parser;
+  parser.intro("freqsynth_render: renders a scene by adaptive synthesis in the frequency domain");
+  parser.usage(usage_line);
+  parser.add_help(false).exit_on_error(false);
+  describe_outputs(parser, options, texts);
+  describe_method(parser, options, texts);
+  describe_jpeg(parser, options, texts);
+  if (parser.parse_args(argc, argv) < 0) throw UsageError(parser.geterror());
+  if (texts.help) {
+    parser.print_help();
+    return std::nullopt;
   }
-  if (options.direct && (options.output.empty() || options.scale != 1 || options.reference != 0 ||
-                         !options.frames.empty())) {
-    throw UsageError("--direct: needs -o and has no --frames, --scale and --reference");
-  }
-  if (options.direct && options.pixel_filter == freqsynth::PixelFilter::none) {
-    throw UsageError("--direct: averages over pixels, has no --pixel-filter none");
-  }
-  if (options.progressive && !options.direct) throw UsageError("--progressive: needs --direct");
-  if (!tolerance.empty() && !options.until_quality) {
-    throw UsageError("--tolerance: needs --until-quality");
-  }
-  if (options.terms_every < 1) refuse("--terms-every", terms_every, "at least 1");
-  if (options.threads > 1024) refuse("--threads", threads, "in 1..1024");
-  if (options.output.empty() && options.frames.empty()) {
-    throw UsageError("-o: no output file is named");
-  }
-  if (options.reference != 0 && !(options.frames.empty() && options.density.empty())) {
-    throw UsageError("--reference: has no --frames and no --density");
-  }
-  if (options.reference != 0 && options.scale != 1) {
-    throw UsageError("--reference: has no --scale");
-  }
+  read_method(texts, options);
+  read_jpeg(texts, options);
+  check_combinations(texts, options);
   return options;
 }

@@ -8,39 +8,12 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <stdexcept>
-#include <system_error>
 
 #include "freqsynth/jpeg/display_encoding.h"
 
 namespace {
-
-/// A name beside `file` for the time of writing, with the same ending. Devices are written
-/// directly.
-std::filesystem::path unfinished_name(const std::filesystem::path& file) {
-  std::error_code ignored;
-  if (std::filesystem::exists(file, ignored) && !std::filesystem::is_regular_file(file, ignored)) {
-    return file;
-  }
-  std::filesystem::path name = file;
-  return name.replace_filename(file.stem()).concat(".unfinished").concat(file.extension().string());
-}
-
-/// Lets `write(name)` write a file and then gives it its name; removes what a failure leaves.
-template <class Write>
-void write_whole(const std::string& file, const Write& write) {
-  const std::filesystem::path name = unfinished_name(file);
-  std::error_code error;
-  try {
-    write(name.string());
-    if (name != file) std::filesystem::rename(name, file);
-  } catch (const std::exception& reason) {
-    if (name != file) std::filesystem::remove(name, error);
-    throw std::runtime_error(file + ": " + reason.what());
-  }
-}
 
 std::string ending_of(const std::string& file) {
   return OIIO::Strutil::lower(OIIO::Filesystem::extension(file));
@@ -49,6 +22,14 @@ std::string ending_of(const std::string& file) {
 bool holds_linear(const std::string& file) {
   const std::array linear{".exr", ".pfm", ".hdr", ".tif", ".tiff"};
   return std::find(linear.begin(), linear.end(), ending_of(file)) != linear.end();
+}
+
+void write_bytes(const std::string& name, const std::vector<unsigned char>& bytes) {
+  std::ofstream stream(name, std::ios::binary);
+  stream.write(reinterpret_cast<const char*>(bytes.data()),
+               static_cast<std::streamsize>(bytes.size()));
+  stream.close();
+  if (!stream) throw std::runtime_error("cannot be written");
 }
 
 /// Portable float map: a header, then rows of floats from the bottom up. OpenImageIO 2.4 only reads
@@ -94,6 +75,9 @@ void write_picture(const std::string& file, const Picture& picture, const JpegSe
       write_pfm(name, {picture.width, picture.height, picture.channels, values});
       return;
     }
+    // In memory where the format allows: writers of OpenImageIO 2.4 do not notice a full disk
+    // (PNG), or end the program (JPEG).
+    OIIO::Filesystem::IOVecOutput memory;
     const auto output = OIIO::ImageOutput::create(file);
     if (!output) throw std::runtime_error(OIIO::geterror());
     OIIO::ImageSpec spec(static_cast<int>(picture.width), static_cast<int>(picture.height),
@@ -103,13 +87,31 @@ void write_picture(const std::string& file, const Picture& picture, const JpegSe
     spec.attribute("CompressionQuality", jpeg.quality);
     spec.attribute("jpeg:subsampling",
                    jpeg.subsampling == freqsynth::Subsampling::both ? "4:2:0" : "4:4:4");
+    const bool in_memory = output->supports("ioproxy") && output->set_ioproxy(&memory);
     const bool written =
         output->open(name, spec) && output->write_image(OIIO::TypeDesc::FLOAT, values.data());
     if (!written || !output->close()) {
       const std::string reason = output->geterror();
       throw std::runtime_error(reason.empty() ? "cannot be written" : reason);
     }
+    if (in_memory) write_bytes(name, memory.buffer());
   });
+}
+
+void check_jpeg_size(const std::string& file, std::size_t width, std::size_t height) {
+  constexpr std::size_t most = 65500;
+  if (width <= most && height <= most) return;
+  throw std::runtime_error(file + ": " + std::to_string(width) + " x " + std::to_string(height) +
+                           " pixels; libjpeg writes no side above " + std::to_string(most));
+}
+
+void check_picture(const std::string& file, std::size_t width, std::size_t height) {
+  const std::string ending = ending_of(file);
+  if (ending == ".jpg" || ending == ".jpeg") check_jpeg_size(file, width, height);
+  if (ending != ".pfm" && !OIIO::ImageOutput::create(file)) {
+    throw std::runtime_error(file + ": " + OIIO::geterror());
+  }
+  check_writable(file);
 }
 
 void write_text(const std::string& file, const std::string& text) {
@@ -119,14 +121,6 @@ void write_text(const std::string& file, const std::string& text) {
     stream.close();
     if (!stream) throw std::runtime_error("cannot be written");
   });
-}
-
-void make_folder(const std::string& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error || !std::filesystem::is_directory(folder)) {
-    throw std::runtime_error(folder + ": " + (error ? error.message() : "not a folder"));
-  }
 }
 
 Picture contact_sheet(const std::vector<Picture>& pictures, std::size_t columns) {

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <filesystem>
 #include <stdexcept>
+#include <system_error>
 
 namespace scenes {
 namespace {
@@ -29,6 +31,12 @@ bool is_encoded(const OIIO::ImageSpec& spec) {
 }  // namespace
 
 ImageScene::ImageScene(const std::string& file, int width, int height) {
+  // A device may have no end.
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(file, error);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+    throw std::runtime_error("cannot read picture '" + file + "': not a regular file");
+  }
   // Without this hint the colours would be multiplied by the alpha that is to be ignored.
   OIIO::ImageSpec hints;
   hints.attribute("oiio:UnassociatedAlpha", 1);

@@ -1,69 +1,18 @@
 #include "freqsynth/jpeg/jpeg.h"
 
 #include <algorithm>
-#include <csetjmp>
-#include <cstdio>  // jpeglib.h needs it and does not include it
+#include <cstdio>
+#include <limits>
 #include <stdexcept>
 #include <string>
-#include <type_traits>
 #include <utility>
 
-#include <jpeglib.h>
-// After jpeglib.h, which it needs.
-#include <jerror.h>
-
+#include "freqsynth/basis/check.h"
 #include "freqsynth/basis/dct.h"
+#include "libjpeg_session.h"
 
 namespace freqsynth {
 namespace {
-
-/// libjpeg reports errors by a call that must not return. This one leaves by longjmp, for
-/// exceptions cannot be relied on to pass through C.
-struct Errors : jpeg_error_mgr {
-  std::jmp_buf jump;
-  char message[JMSG_LENGTH_MAX];
-
-  Errors() {
-    jpeg_std_error(this);
-    error_exit = &leave;
-    output_message = [](j_common_ptr) {};
-    // Negative levels warn of damaged data; all others only tell how things go.
-    emit_message = [](j_common_ptr info, int level) {
-      if (level < 0) leave(info);
-    };
-  }
-
-  [[noreturn]] static void leave(j_common_ptr info) {
-    auto* errors = static_cast<Errors*>(info->err);
-    errors->format_message(info, errors->message);
-    std::longjmp(errors->jump, 1);
-  }
-};
-
-/// Calls `body`, which calls libjpeg. It must hold no object with a destructor: longjmp runs none.
-/// \throws std::runtime_error with libjpeg's message.
-template <class Body>
-void guarded(Errors& errors, const char* function, const Body& body) {
-  static_assert(std::is_trivially_destructible_v<Body>);
-  if (setjmp(errors.jump) != 0) {
-    throw std::runtime_error("freqsynth: " + std::string(function) + ": " + errors.message);
-  }
-  body();
-}
-
-/// A libjpeg object that destroys itself. It must be created within `guarded`.
-template <class Info>
-struct Session {
-  Errors errors;
-  Info info{};
-
-  Session() { info.err = &errors; }
-  Session(const Session&) = delete;
-  Session& operator=(const Session&) = delete;
-  ~Session() { jpeg_destroy(common()); }
-
-  j_common_ptr common() { return reinterpret_cast<j_common_ptr>(&info); }
-};
 
 /// Compressed bytes go to a vector.
 struct Destination : jpeg_destination_mgr {
@@ -99,9 +48,7 @@ struct Destination : jpeg_destination_mgr {
   }
 };
 
-[[noreturn]] void refuse(const std::string& why) {
-  throw std::invalid_argument("freqsynth: encode_jpeg: " + why);
-}
+[[noreturn]] void refuse(const std::string& why) { detail::refuse("encode_jpeg: " + why); }
 
 /// What QuantizedImage::validate() lets pass and JPEG cannot say.
 void check(const QuantizedImage& image) {
@@ -189,6 +136,34 @@ void fill(jpeg_compress_struct& info, const QuantizedComponent& component, jvirt
   }
 }
 
+/// Ends the reading of a file with more passes than are allowed; libjpeg calls it all the time.
+struct PassLimit : jpeg_progress_mgr {
+  std::size_t most;
+
+  explicit PassLimit(std::size_t passes) : jpeg_progress_mgr(), most(passes) {
+    progress_monitor = [](j_common_ptr info) {
+      const auto number = reinterpret_cast<j_decompress_ptr>(info)->input_scan_number;
+      const std::size_t allowed = static_cast<PassLimit*>(info->progress)->most;
+      if (number <= 0 || static_cast<std::size_t>(number) <= allowed) return;
+      char text[80];
+      std::snprintf(text, sizeof text, "more than the limit of %zu scans", allowed);
+      Errors::leave_with(info, text);
+    };
+  }
+};
+
+/// What libjpeg may take for the coefficients of an image within the limit of pixels: three
+/// components of 2 bytes each; and what is added to narrow images to make whole groups of blocks.
+long memory_for(std::uint64_t pixels) {
+  constexpr std::uint64_t narrow = 32 << 20;
+  constexpr auto most = static_cast<std::uint64_t>(std::numeric_limits<long>::max());
+  return static_cast<long>(pixels > (most - narrow) / 6 ? most : 6 * pixels + narrow);
+}
+
+[[noreturn]] void refuse_file(const std::string& why) {
+  throw std::runtime_error("freqsynth: decode_jpeg: " + why);
+}
+
 const char* name_of(J_COLOR_SPACE space) {
   switch (space) {
     case JCS_RGB:
@@ -200,6 +175,38 @@ const char* name_of(J_COLOR_SPACE space) {
     default:
       return "unknown colours";
   }
+}
+
+/// Appends a component, and its table where the image has not got it yet.
+void take_component(Session<jpeg_decompress_struct>& session, int number, jvirt_barray_ptr array,
+                    QuantizedImage& image) {
+  jpeg_decompress_struct& info = session.info;
+  const jpeg_component_info& from = info.comp_info[number];
+  // A file may define a table anew between two components.
+  QuantizationTable table{};
+  for (std::size_t i = 0; i < max_terms; ++i) {
+    table[i] = from.quant_table->quantval[detail::zigzag_to_row_major[i]];
+  }
+  const auto place = std::find(image.tables.begin(), image.tables.end(), table);
+  QuantizedComponent& component = image.components.emplace_back();
+  component.table = static_cast<std::size_t>(place - image.tables.begin());
+  if (place == image.tables.end()) image.tables.push_back(table);
+  component.horizontal = from.h_samp_factor;
+  component.vertical = from.v_samp_factor;
+  component.blocks_x = from.width_in_blocks;
+  component.blocks_y = from.height_in_blocks;
+  component.values.resize(component.blocks_x * component.blocks_y * max_terms);
+  std::int16_t* out = component.values.data();
+  guarded(session.errors, "decode_jpeg", [&] {
+    for (JDIMENSION y = 0; y < from.height_in_blocks; ++y) {
+      JBLOCKARRAY row = info.mem->access_virt_barray(session.common(), array, y, 1, FALSE);
+      for (JDIMENSION x = 0; x < from.width_in_blocks; ++x) {
+        for (const std::size_t place_of_term : detail::zigzag_to_row_major) {
+          *out++ = row[0][x][place_of_term];
+        }
+      }
+    }
+  });
 }
 
 }  // namespace
@@ -224,19 +231,29 @@ std::vector<std::uint8_t> encode_jpeg(const QuantizedImage& image, const JpegOpt
   return std::move(destination.bytes);
 }
 
-QuantizedImage decode_jpeg(std::span<const std::uint8_t> data) {
+QuantizedImage decode_jpeg(std::span<const std::uint8_t> data, const JpegLimits& limits) {
+  if (data.size() > limits.bytes) {
+    refuse_file("more than the limit of " + std::to_string(limits.bytes) + " bytes");
+  }
+  PassLimit passes(limits.scans);
   Session<jpeg_decompress_struct> session;
   jpeg_decompress_struct& info = session.info;
   jvirt_barray_ptr* arrays = nullptr;
   guarded(session.errors, "decode_jpeg", [&] {
     jpeg_create_decompress(&info);
+    info.progress = &passes;
+    info.mem->max_memory_to_use = memory_for(limits.pixels);
     jpeg_mem_src(&info, data.data(), static_cast<unsigned long>(data.size()));
     jpeg_read_header(&info, TRUE);
   });
   if (info.jpeg_color_space != JCS_GRAYSCALE && info.jpeg_color_space != JCS_YCbCr) {
-    throw std::runtime_error("freqsynth: decode_jpeg: the image is " +
-                             std::string(name_of(info.jpeg_color_space)) +
-                             ", not grayscale or YCbCr");
+    refuse_file("the image is " + std::string(name_of(info.jpeg_color_space)) +
+                ", not grayscale or YCbCr");
+  }
+  if (std::uint64_t{info.image_width} * info.image_height > limits.pixels) {
+    refuse_file("an image of " + std::to_string(info.image_width) + " x " +
+                std::to_string(info.image_height) + " pixels, more than the limit of " +
+                std::to_string(limits.pixels));
   }
   guarded(session.errors, "decode_jpeg", [&] { arrays = jpeg_read_coefficients(&info); });
 
@@ -244,41 +261,15 @@ QuantizedImage decode_jpeg(std::span<const std::uint8_t> data) {
   image.width = info.image_width;
   image.height = info.image_height;
   for (int c = 0; c < info.num_components; ++c) {
-    const jpeg_component_info& from = info.comp_info[c];
-    if (from.quant_table == nullptr) {
-      throw std::runtime_error("freqsynth: decode_jpeg: component " + std::to_string(c) +
-                               " has no data");
+    if (info.comp_info[c].quant_table == nullptr) {
+      refuse_file("component " + std::to_string(c) + " has no data");
     }
-    // A file may define a table anew between two components.
-    QuantizationTable table{};
-    for (std::size_t i = 0; i < max_terms; ++i) {
-      table[i] = from.quant_table->quantval[detail::zigzag_to_row_major[i]];
-    }
-    const auto place = std::find(image.tables.begin(), image.tables.end(), table);
-    QuantizedComponent& component = image.components.emplace_back();
-    component.table = static_cast<std::size_t>(place - image.tables.begin());
-    if (place == image.tables.end()) image.tables.push_back(table);
-    component.horizontal = from.h_samp_factor;
-    component.vertical = from.v_samp_factor;
-    component.blocks_x = from.width_in_blocks;
-    component.blocks_y = from.height_in_blocks;
-    component.values.resize(component.blocks_x * component.blocks_y * max_terms);
-    std::int16_t* out = component.values.data();
-    guarded(session.errors, "decode_jpeg", [&] {
-      for (JDIMENSION y = 0; y < from.height_in_blocks; ++y) {
-        JBLOCKARRAY row = info.mem->access_virt_barray(session.common(), arrays[c], y, 1, FALSE);
-        for (JDIMENSION x = 0; x < from.width_in_blocks; ++x) {
-          for (const std::size_t place_of_term : detail::zigzag_to_row_major) {
-            *out++ = row[0][x][place_of_term];
-          }
-        }
-      }
-    });
+    take_component(session, c, arrays[c], image);
   }
   try {
     image.validate();
   } catch (const std::invalid_argument& fault) {
-    throw std::runtime_error(std::string("freqsynth: decode_jpeg: damaged: ") + fault.what());
+    refuse_file(std::string("damaged: ") + fault.what());
   }
   return image;
 }

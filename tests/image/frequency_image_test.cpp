@@ -8,6 +8,9 @@
 #include <string>
 #include <utility>
 
+#include "freqsynth/engine/block_grid.h"
+#include "freqsynth/image/reconstructor.h"
+
 namespace freqsynth {
 namespace {
 
@@ -76,6 +79,29 @@ TEST(FrequencyImage, MayBeEmpty) {
     EXPECT_EQ(image.height(), height);
     EXPECT_EQ(image.blocks_x() * image.blocks_y(), 0u);
   }
+}
+
+TEST(FrequencyImage, IsEmptyWhenMovedFrom) {
+  FrequencyImage image(17, 9, 3);
+  image.coefficients(2, 1, 2)[63] = 7;
+  image.samples(2, 1) = 5;
+  FrequencyImage taken(std::move(image));
+  EXPECT_EQ(taken.coefficients(2, 1, 2)[63], 7);
+  EXPECT_EQ(taken.samples(2, 1), 5u);
+  FrequencyImage assigned(8, 8, 1);
+  assigned = std::move(taken);
+  EXPECT_EQ(assigned.width(), 17u);
+  EXPECT_EQ(assigned.coefficients(2, 1, 2)[63], 7);
+  // What is left can be used like any image without pixels.
+  for (const FrequencyImage* left : {&image, &taken}) {
+    EXPECT_EQ(left->width(), 0u);
+    EXPECT_EQ(left->blocks_x(), 0u);
+    EXPECT_EQ(left->blocks_y(), 0u);
+    EXPECT_TRUE(reconstruct(*left).empty());
+  }
+  FrequencyImage& itself = assigned;
+  assigned = std::move(itself);
+  EXPECT_EQ(assigned.coefficients(2, 1, 2)[63], 7);
 }
 
 TEST(FrequencyImage, SizesThatOverflowAreRefused) {

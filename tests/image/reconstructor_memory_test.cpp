@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "freqsynth/basis/check.h"
 #include "freqsynth/image/reconstructor.h"
 #include "support/oracles.h"
 
@@ -111,8 +112,8 @@ TEST(ReconstructorMemory, WidthAndHeightMayScaleDifferently) {
         for (std::size_t k = 0; k < 4; ++k) {
           mean += fine[(y * 40 + 4 * x + k) * channels + c] / 4;
         }
-        // 64 amplitudes up to 1/4 each, some 20 roundings.
-        ASSERT_NEAR(out[(y * 10 + x) * channels + c], mean, 16 * 20 * oracle::float_rounding);
+        // Of numbers about 1. Measured: 2.5 roundings.
+        ASSERT_NEAR(out[(y * 10 + x) * channels + c], mean, 3.2 * oracle::float_rounding);
       }
     }
   }
@@ -149,7 +150,7 @@ TEST(ReconstructorMemory, WrongArgumentsAreNamed) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();
   for (const double scale : {0.0, -1.5, nan, infinity}) {
-    const std::string value = std::to_string(scale);
+    const std::string value = "is " + detail::to_text(scale) + ", not a finite number > 0";
     EXPECT_THAT([&] { static_cast<void>(reconstruct(image, {}, scale)); },
                 ThrowsMessage<std::invalid_argument>(AllOf(HasSubstr("scale"), HasSubstr(value))));
   }
@@ -174,7 +175,7 @@ TEST(ReconstructorMemory, EvaluateRefusesPointsOutside) {
   const auto refuses = [&](double x, double y) {
     EXPECT_THAT([&] { evaluate(image, {}, x, y, values); },
                 ThrowsMessage<std::invalid_argument>(
-                    AllOf(HasSubstr(std::to_string(x)), HasSubstr(std::to_string(y)))));
+                    HasSubstr("(" + detail::to_text(x) + ", " + detail::to_text(y) + ")")));
   };
   refuses(-0.1, 1);
   refuses(20.1, 1);

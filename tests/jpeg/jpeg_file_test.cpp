@@ -1,17 +1,20 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 
+#include <algorithm>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <functional>
 #include <iterator>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
-#include "freqsynth/jpeg/jpeg.h"
+#include "freqsynth/jpeg/jpeg_file.h"
 #include "support/jpeg_helpers.h"
 #include "support/quantization_helpers.h"
 
@@ -107,6 +110,63 @@ TEST(DecodeJpeg, NamesColoursThatItDoesNotRead) {
     if (twelve_bits[i] == 0xff && twelve_bits[i + 1] == 0xc0) twelve_bits[i + 4] = 12;
   }
   EXPECT_THAT([&] { (void)decode_jpeg(twelve_bits); }, refuses("precision 12"));
+}
+
+// --------------------------------------------------------------------------------------- limits
+
+/// The most memory that this process ever held, in bytes.
+long peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return usage.ru_maxrss * 1024;
+}
+
+TEST(JpegLimits, AFewBytesCannotClaimAnySize) {
+  const long before = peak_memory();
+  EXPECT_THAT([] { (void)decode_jpeg(test::black_hole(65500, 65500, 4)); },
+              refuses("65500 x 65500 pixels, more than the limit of 100000000"));
+  EXPECT_THAT([] { (void)decode_jpeg(test::black_hole(10001, 10000, 4)); },
+              refuses("10001 x 10000 pixels"));
+  // Nothing of the size that was claimed.
+  EXPECT_LT(peak_memory() - before, 20 << 20);
+}
+
+TEST(JpegLimits, AFileOfZerosIsRefusedBeforeItGrows) {
+  // The whole of it, 1.7 MB, would be decoded to 290 MB.
+  const Bytes bomb = test::black_hole(12000, 12000, 1500 * 1500);
+  const long before = peak_memory();
+  EXPECT_THAT([&] { (void)decode_jpeg(bomb); }, refuses("12000 x 12000 pixels"));
+  EXPECT_LT(peak_memory() - before, 20 << 20);
+  // A small one is a black picture, and the limit is one of pixels, inclusive.
+  const Bytes black = test::black_hole(160, 80, 20 * 10);
+  EXPECT_THAT(decode_jpeg(black, {.pixels = 160 * 80}).components[0].values,
+              testing::Each(std::int16_t{0}));
+  EXPECT_THAT([&] { (void)decode_jpeg(black, {.pixels = 160 * 80 - 1}); },
+              refuses("160 x 80 pixels, more than the limit of 12799"));
+}
+
+TEST(JpegLimits, PassesOverTheImageAreCounted) {
+  const Bytes many = test::many_scans(40, 40, 300);
+  EXPECT_THAT([&] { (void)decode_jpeg(many); }, refuses("more than the limit of 200 scans"));
+  const QuantizedImage once = decode_jpeg(test::many_scans(40, 40, 0));
+  EXPECT_EQ(decode_jpeg(many, {.scans = 302}).components[0].values, once.components[0].values);
+  EXPECT_THAT([&] { (void)decode_jpeg(many, {.scans = 301}); }, refuses("limit of 301 scans"));
+}
+
+TEST(JpegLimits, NarrowImagesAreReadWithinTightLimits) {
+  // Groups of blocks make libjpeg's memory larger than the pixels.
+  for (const auto& [width, height] : {std::pair<std::size_t, std::size_t>{65500, 1}, {1, 65500}}) {
+    const QuantizedImage image = random_quantized(width, height, 3, 2, 2);
+    const QuantizedImage read = decode_jpeg(encode_jpeg(image), {.pixels = 65500});
+    EXPECT_EQ(read.components[2].values, image.components[2].values);
+  }
+}
+
+TEST(JpegLimits, BytesAreCounted) {
+  const Bytes bytes = encode_jpeg(random_quantized(20, 20, 3, 2, 2));
+  EXPECT_EQ(decode_jpeg(bytes, {.bytes = bytes.size()}).width, 20u);
+  EXPECT_THAT([&] { (void)decode_jpeg(bytes, {.bytes = bytes.size() - 1}); },
+              refuses(("limit of " + std::to_string(bytes.size() - 1) + " bytes").c_str()));
 }
 
 // ---------------------------------------------------------------------------------------- files
@@ -217,6 +277,59 @@ TEST_F(JpegFile, FailuresToReadNameTheFileAndTheReason) {
   const Bytes bytes = encode_jpeg(image_);
   std::ofstream(file_, std::ios::binary).write(reinterpret_cast<const char*>(bytes.data()), 10000);
   fails(file_, "Premature end");
+}
+
+TEST_F(JpegFile, NoMoreIsReadThanTheLimit) {
+  Bytes bytes = encode_jpeg(image_);
+  const std::size_t size = bytes.size();
+  const auto store = [&] {
+    std::ofstream(file_, std::ios::binary)
+        .write(reinterpret_cast<const char*>(bytes.data()),
+               static_cast<std::streamsize>(bytes.size()));
+  };
+  store();
+  EXPECT_EQ(read_jpeg(file_, {.bytes = size}).width, image_.width);
+  const auto refused = [&](const char* why) {
+    return ThrowsMessage<std::runtime_error>(
+        AllOf(HasSubstr("cannot read " + file_.string()), HasSubstr(why)));
+  };
+  EXPECT_THAT([&] { (void)read_jpeg(file_, {.bytes = size - 1}); }, refused("limit of"));
+  // A file that goes on after the picture, for 300 MB that take no place on the disk.
+  fs::resize_file(file_, 300 << 20);
+  const long before = peak_memory();
+  EXPECT_THAT([&] { (void)read_jpeg(file_, {.bytes = 1 << 20}); },
+              refused("more than the limit of 1048576 bytes"));
+  EXPECT_LT(peak_memory() - before, 20 << 20);
+  EXPECT_THAT([&] { (void)read_jpeg(file_); }, refused("more than the limit of 268435456 bytes"));
+}
+
+TEST_F(JpegFile, ADeviceWithoutAnEndIsNotRead) {
+  if (!fs::exists("/dev/zero")) GTEST_SKIP();
+  const long before = peak_memory();
+  EXPECT_THAT([] { (void)read_jpeg("/dev/zero"); },
+              ThrowsMessage<std::runtime_error>(
+                  AllOf(HasSubstr("cannot read /dev/zero"), HasSubstr("Not a JPEG file"))));
+  EXPECT_LT(peak_memory() - before, 20 << 20);
+}
+
+TEST_F(JpegFile, MayBeAPipe) {
+  const fs::path pipe = folder_ / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  const Bytes bytes = encode_jpeg(image_);
+  std::thread writer([&] {
+    std::ofstream stream(pipe, std::ios::binary);
+    // In pieces, of which the first is shorter than any header.
+    for (std::size_t done = 0; done < bytes.size();) {
+      const std::size_t size = std::min<std::size_t>(done == 0 ? 1 : 5000, bytes.size() - done);
+      stream.write(reinterpret_cast<const char*>(bytes.data() + done),
+                   static_cast<std::streamsize>(size));
+      stream.flush();
+      done += size;
+    }
+  });
+  const QuantizedImage read = read_jpeg(pipe);
+  writer.join();
+  EXPECT_EQ(read.components[0].values, image_.components[0].values);
 }
 
 }  // namespace

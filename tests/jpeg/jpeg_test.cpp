@@ -12,6 +12,9 @@
 #include <vector>
 
 #include "freqsynth/image/reconstructor.h"
+#include "freqsynth/jpeg/dequantization.h"
+#include "freqsynth/jpeg/jpeg_file.h"
+#include "freqsynth/jpeg/quantization.h"
 #include "support/jpeg_helpers.h"
 #include "support/quantization_helpers.h"
 
@@ -166,9 +169,9 @@ void expect_pixels(const Bytes& bytes, const FrequencyImage& image, double toler
   }
 }
 
-/// Rounding to 8 bits; floats of libjpeg are good to about 1e-3, its integers to one level
-/// (IEEE 1180).
-constexpr std::pair<J_DCT_METHOD, double> decoders[] = {{JDCT_FLOAT, 0.51}, {JDCT_ISLOW, 1.5}};
+/// Rounding to 8 bits; floats of libjpeg are good to about 1e-3, its integers, which the standard
+/// lets be off by one level (IEEE 1180), by 0.03 as measured.
+constexpr std::pair<J_DCT_METHOD, double> decoders[] = {{JDCT_FLOAT, 0.51}, {JDCT_ISLOW, 0.66}};
 
 TEST(Jpeg, ReadsFilesOfOtherEncoders) {
   using test::Compression;
@@ -212,7 +215,8 @@ TEST(Jpeg, DecodersSeeTheDequantisedImage) {
 
 /// From the frequency image to a decoder's pixels, against reconstruct(). The transform is
 /// orthonormal: if no coefficient moves by more than half its step, the root mean square over a
-/// block moves by at most |steps| / 2 / 8; rounding to 8 bits adds half a level.
+/// block moves by at most |steps| / 2 / 8; rounding to 8 bits adds half a level. Errors that are
+/// even in that range have a root mean square of 0.58 of it; measured, no block is above 0.48.
 TEST(Jpeg, PixelsAreThoseOfReconstruct) {
   for (const int quality : {30, 75, 90, 100}) {
     const FrequencyImage image = random_signal(48, 32, 3, CoefficientMeaning::point_function);
@@ -226,7 +230,7 @@ TEST(Jpeg, PixelsAreThoseOfReconstruct) {
       double steps = 0;
       for (const std::uint16_t step : table) steps += double{0.25} * step * step;
       // 1.01 when all steps are 1.
-      const double bound = std::sqrt(steps) / 8 + 0.51;
+      const double bound = 0.6 * (std::sqrt(steps) / 8 + 0.51);
       for (std::size_t b = 0; b < 6 * 4; ++b) {
         double squares = 0;
         for (std::size_t i = 0; i < 64; ++i) {

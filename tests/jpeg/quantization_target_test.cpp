@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "freqsynth/basis/dct.h"
 #include "freqsynth/basis/inverse_list.h"
 #include "freqsynth/basis/shared_list.h"
 #include "freqsynth/jpeg/quantization.h"

@@ -225,6 +225,22 @@ TEST(Quantize, RefusesWhatItCannotQuantise) {
   refuses(FrequencyImage(8, 8, 1), settings, "butterworth.cutoff is -1");
 }
 
+TEST(QuantizationTargetOfSettings, RefusesWhatQuantizeRefuses) {
+  const auto refuses = [](const QuantizationSettings& settings, std::size_t channels,
+                          const char* why) {
+    EXPECT_THAT([&] { (void)quantization_target(settings, channels); },
+                ThrowsMessage<std::invalid_argument>(HasSubstr(why)));
+  };
+  refuses({}, 0, "of 0 channels, not 1 or 3");
+  refuses({}, 2, "of 2 channels, not 1 or 3");
+  QuantizationSettings settings;
+  settings.chrominance[63] = 0;
+  refuses(settings, 1, "chrominance quantization table holds a 0");
+  settings = {};
+  settings.butterworth.order = -1;
+  refuses(settings, 3, "butterworth.order is -1");
+}
+
 TEST(Quantize, CopesWithLargeSampleCounts) {
   FrequencyImage image(64, 8, 1);
   for (std::size_t x = 0; x < 8; ++x) {

@@ -31,10 +31,10 @@ std::array<Real, max_terms> halve_pixels(const std::array<std::array<float, max_
 }
 
 /// A sum of 256 products: four blocks, each along two axes. Along one axis the 16 weights of an
-/// output have a sum of squares of at most 1 / 2 and thus a sum of at most sqrt(8); each product
-/// takes part in about 20 roundings.
+/// output have a sum of squares of at most 1 / 2 and thus a sum of at most sqrt(8), and the
+/// roundings of the products even out. Measured: 2.1 roundings of the largest.
 constexpr double halving_tolerance(double largest) {
-  return 8 * largest * 20 * oracle::float_rounding;
+  return largest * 2.65 * oracle::float_rounding;
 }
 
 TEST(HalveBlocks, IsTheMeanOfPixels) {

@@ -36,6 +36,13 @@ expect_failure 1 "said" said -o wrong
 [[ ! -e wrong ]] || fail "a refused command made a folder"
 expect_failure 1 "said" picture.png -o said
 
+# A device without an end is refused, not read.
+status=0
+timeout 60 "$program" /dev/zero -o wrong >said 2>&1 || status=$?
+[[ $status -eq 1 ]] || fail "/dev/zero: exit code $status"
+grep -qF "/dev/zero: not a regular file" said || fail "/dev/zero: says $(cat said)"
+[[ ! -e wrong ]] || fail "a refused command made a folder"
+
 # All figures, in the sizes that follow from the picture's.
 for input in picture.png gray.png linear.exr picture.jpg; do
   "$program" "$input" -o "of_$input" >said
@@ -71,5 +78,5 @@ cmp plain/figure_2_terms_01.png plain/figure_2_terms_64.png || fail "one colour,
 ! cmp -s options/figure_4.png again/figure_4.png || fail "--bits changes nothing"
 "$program" picture.png --seed 9 -o seed >said
 ! cmp -s seed/figure_4.png again/figure_4.png || fail "--seed changes nothing"
-[[ $(find . -name '*unfinished*' | wc -l) -eq 0 ]] || fail "unfinished files are left"
+[[ -z $(find . -mindepth 1 -name '.*') ]] || fail "unfinished files are left"
 echo "dct_figures: all as expected"

@@ -52,6 +52,81 @@ if [[ -e /dev/full ]]; then
   expect_failure 1 "/dev/full" "${small[@]}" -o ok.png --stats /dev/full
 fi
 
+# Where the results go is looked at before the first sample: these runs would take hours.
+# expect_refusal TEXT ARGUMENTS...
+expect_refusal() {
+  local text=$1 status=0
+  shift
+  timeout 60 "$program" --size 2048x2048 --spp 4096 "$@" >said 2>&1 || status=$?
+  [[ $status -ne 124 ]] || fail "renders before it refuses: $*"
+  [[ $status -eq 1 ]] || fail "exit code $status instead of 1: $*"
+  grep -qF -- "$text" said || fail "does not say '$text': $* ($(cat said))"
+}
+mkdir -p taken/contact_sheet.png
+expect_refusal "nowhere/a.png" -o nowhere/a.png
+expect_refusal "said/a.png" -o said/a.png
+expect_refusal "a.nosuchformat" -o a.nosuchformat
+expect_refusal "taken: is a folder" -o a.png --stats taken
+expect_refusal "nowhere/a.json" -o a.png --stats nowhere/a.json
+expect_refusal "nowhere/a.png" -o b.png --density nowhere/a.png
+expect_refusal "a.nosuchformat" -o a.png --density a.nosuchformat
+expect_refusal "said" -o a.png --frames said
+expect_refusal "taken/contact_sheet.png: is a folder" --frames taken
+expect_refusal "a.jpg: 65536 x 65536 pixels" -o a.jpg --scale 32
+expect_refusal "nowhere/a.png" --reference 4096 -o nowhere/a.png
+expect_refusal "/dev/zero" --scene image:/dev/zero -o a.png
+if [[ $(id -u) -ne 0 ]]; then
+  echo "kept" >locked.json
+  chmod a-w locked.json
+  expect_refusal "locked.json" -o a.png --stats locked.json
+fi
+if "$program" "${small[@]}" --direct -o direct.jpg 2>said; then
+  expect_refusal "nowhere/a.jpg" --direct -o nowhere/a.jpg
+  expect_refusal "a.jpg: 65501 x 8 pixels" --direct --size 65501x8 -o a.jpg
+fi
+[[ ! -e a.png && ! -e a.jpg && ! -e b.png ]] || fail "a refused command wrote a picture"
+
+# What does not fit is said in the words of the command line.
+(
+  ulimit -v 4000000
+  expect_failure 1 "--size 65536x65536: does not fit in memory" --size 65536x65536 -o a.png
+  expect_failure 1 "--scale 1000" "${small[@]}" --scale 1000 -o a.png
+)
+
+# Nothing is touched but the file that is named; its permissions stay, and so does a link to it.
+"$program" "${small[@]}" -o expected.png
+echo "not for the program" >keep.unfinished.png
+echo "an older picture" >keep.png
+chmod 640 keep.png
+ln -s keep.png link.png
+ln -s to_be_made.png dangling.png
+"$program" "${small[@]}" -o link.png
+"$program" "${small[@]}" -o dangling.png
+[[ $(cat keep.unfinished.png) == "not for the program" ]] || fail "a file beside the output is lost"
+[[ -L link.png && -L dangling.png ]] || fail "a link was replaced by a file"
+[[ ! -L keep.png && $(stat -c %a keep.png) == 640 ]] || fail "permissions are lost"
+cmp keep.png expected.png || fail "what the link names is not the picture"
+cmp to_be_made.png expected.png || fail "what the dangling link names is not the picture"
+# Two runs with one output: both end well, and the picture is that of one of them.
+for ((i = 0; i < 8; ++i)); do
+  "$program" "${small[@]}" -o shared.png &
+  other=$!
+  "$program" "${small[@]}" -o shared.png || fail "a run was disturbed by another"
+  wait $other || fail "a run was disturbed by another"
+  cmp shared.png expected.png || fail "two runs wrote one file"
+done
+# A full disk leaves the old picture, and nothing else.
+for ending in png jpg exr pfm tif; do
+  cp expected.png "full.$ending"
+  (
+    trap '' XFSZ
+    ulimit -f 4
+    expect_failure 1 "full.$ending" --size 200x200 --scene chess -o "full.$ending"
+  )
+  cmp "full.$ending" expected.png || fail "a full disk lost the older full.$ending"
+done
+[[ -z $(find . -mindepth 1 -name '.*') ]] || fail "unfinished files are left"
+
 # All formats, in the size that was asked for.
 for ending in png jpg exr pfm tif; do
   "$program" "${small[@]}" --spp 1/4 -o "picture.$ending"
@@ -138,5 +213,5 @@ fi
 [[ $(find frames -name '?_spp_*.png' | wc -l) -eq 8 ]] || fail "not eight frames"
 [[ -s frames/contact_sheet.png ]] || fail "no contact sheet"
 "$program" --scene image:picture.png --size 40x40 -o again.png
-[[ $(find . -name '.*unfinished*' | wc -l) -eq 0 ]] || fail "unfinished files are left"
+[[ -z $(find . -mindepth 1 -name ".*") ]] || fail "unfinished files are left"
 echo "freqsynth_render: all as expected"

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <iterator>
 #include <span>
 #include <vector>
 
@@ -55,6 +56,8 @@ struct Compression {
   bool progressive = false;
   bool arithmetic = false;
   unsigned restart_interval = 0;
+  const jpeg_scan_info* script = nullptr;  ///< the scans of a progressive file
+  std::size_t script_size = 0;
 };
 
 inline Bytes encode_pixels_with_libjpeg(std::size_t width, std::size_t height,
@@ -78,6 +81,10 @@ inline Bytes encode_pixels_with_libjpeg(std::size_t width, std::size_t height,
   info.restart_interval = how.restart_interval;
   info.arith_code = how.arithmetic ? TRUE : FALSE;
   if (how.progressive) jpeg_simple_progression(&info);
+  if (how.script != nullptr) {
+    info.scan_info = how.script;
+    info.num_scans = static_cast<int>(how.script_size);
+  }
   jpeg_start_compress(&info, TRUE);
   std::vector<std::uint8_t> row(width * static_cast<std::size_t>(how.channels));
   for (std::size_t y = 0; y < height; ++y) {
@@ -92,6 +99,45 @@ inline Bytes encode_pixels_with_libjpeg(std::size_t width, std::size_t height,
   Bytes result(bytes, bytes + size);
   std::free(bytes);
   return result;
+}
+
+/// A grayscale file, baseline, whose coefficients are all 0: a few bytes for very many pixels.
+inline Bytes black_hole(std::size_t width, std::size_t height, std::size_t blocks_in_file) {
+  // 3 bytes are 4 blocks: "no difference" is 00 and "end of block" 1010 in the standard's codes.
+  const Bytes four_blocks{0x28, 0xa2, 0x8a};
+  Bytes file = encode_pixels_with_libjpeg(8, 8, {.space = JCS_GRAYSCALE, .channels = 1});
+  const auto marker = [&](std::uint8_t kind) {
+    const Bytes wanted{0xff, kind};
+    return std::search(file.begin(), file.end(), wanted.begin(), wanted.end());
+  };
+  const auto frame = marker(0xc0);
+  frame[5] = static_cast<std::uint8_t>(height >> 8);
+  frame[6] = static_cast<std::uint8_t>(height);
+  frame[7] = static_cast<std::uint8_t>(width >> 8);
+  frame[8] = static_cast<std::uint8_t>(width);
+  const auto scan = marker(0xda);
+  file.erase(scan + 2 + scan[3], file.end());
+  for (std::size_t i = 0; i < (blocks_in_file + 3) / 4; ++i) {
+    file.insert(file.end(), four_blocks.begin(), four_blocks.end());
+  }
+  file.insert(file.end(), {0xff, 0xd9});
+  return file;
+}
+
+/// A progressive grayscale file whose last scan comes `repeats` times more.
+inline Bytes many_scans(std::size_t width, std::size_t height, std::size_t repeats) {
+  const jpeg_scan_info script[] = {{1, {0, 0, 0, 0}, 0, 0, 0, 0}, {1, {0, 0, 0, 0}, 1, 63, 0, 0}};
+  Bytes file = encode_pixels_with_libjpeg(
+      width, height,
+      {.space = JCS_GRAYSCALE, .channels = 1, .script = script, .script_size = std::size(script)});
+  // The last scan with the codes that it uses.
+  const Bytes codes{0xff, 0xc4};
+  const auto last = std::find_end(file.begin(), file.end(), codes.begin(), codes.end());
+  const Bytes scan(last, file.end() - 2);
+  file.resize(file.size() - 2);
+  for (std::size_t i = 0; i < repeats; ++i) file.insert(file.end(), scan.begin(), scan.end());
+  file.insert(file.end(), {0xff, 0xd9});
+  return file;
 }
 
 }  // namespace freqsynth::test

@@ -57,6 +57,9 @@ FREQSYNTH_API void inverse_dct(std::span<const float, max_terms> coefficients,
 
 namespace detail {
 
+/// sin(pi z) / (pi z).
+[[nodiscard]] double sinc(double z);
+
 /// Zig-zag term number -> row-major position v * 8 + u, walked along the anti-diagonals.
 constexpr std::array<std::uint8_t, max_terms> make_zigzag() {
   std::array<std::uint8_t, max_terms> order{};

@@ -14,8 +14,7 @@
 namespace freqsynth {
 namespace detail {
 
-/// sin(pi z) / (pi z).
-inline double sinc(double z) {
+FREQSYNTH_INLINE double sinc(double z) {
   const double x = std::numbers::pi * z;
   return x == 0 ? 1 : std::sin(x) / x;
 }

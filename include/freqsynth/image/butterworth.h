@@ -4,13 +4,11 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstddef>
-#include <stdexcept>
-#include <string>
+#include <cstdint>
+#include <vector>
 
 #include "freqsynth/basis/config.h"
-#include "freqsynth/basis/dct.h"
 
 namespace freqsynth {
 
@@ -20,40 +18,43 @@ struct ButterworthSettings {
   double order = 2;     ///< m, finite and > 0
 
   /// \throws std::invalid_argument naming the field and the value when out of range.
-  void validate() const;
+  FREQSYNTH_API void validate() const;
 };
 
 /// H(u, v) = 1 / (1 + (d / d0)^(2 m)) with d^2 = u^2 + v^2 for each zig-zag term, after `samples`
 /// samples. H of the constant term is 1 exactly. All are 1 when the filter is off, and all but the
 /// first 0 without samples.
-[[nodiscard]] std::array<float, max_terms> butterworth_factors(const ButterworthSettings& settings,
-                                                               std::size_t samples);
+[[nodiscard]] FREQSYNTH_API std::array<float, max_terms> butterworth_factors(
+    const ButterworthSettings& settings, std::size_t samples);
 
-// ------------------------------------------------------------------------------------ definitions
+namespace detail {
 
-inline void ButterworthSettings::validate() const {
-  const auto check = [](const char* field, double value) {
-    if (!(value > 0 && std::isfinite(value))) {
-      throw std::invalid_argument("freqsynth: butterworth." + std::string(field) + " is " +
-                                  std::to_string(value) + ", not a finite number > 0");
-    }
+/// The factors of all blocks of an image, computed once for each number of samples that occurs.
+class ButterworthTable {
+ public:
+  /// \param scale  another factor per zig-zag term, whatever the number of samples
+  ButterworthTable(const ButterworthSettings& settings, const std::array<float, max_terms>& scale);
+
+  /// Filter times scale after `samples` samples; valid until the next call.
+  [[nodiscard]] const std::array<float, max_terms>& of(std::uint32_t samples);
+
+ private:
+  struct Entry {
+    std::uint32_t samples;
+    std::uint32_t place;  // in factors_
   };
-  check("cutoff", cutoff);
-  check("order", order);
-}
 
-inline std::array<float, max_terms> butterworth_factors(const ButterworthSettings& settings,
-                                                        std::size_t samples) {
-  std::array<float, max_terms> factors;
-  const double cutoff = settings.cutoff * std::sqrt(static_cast<double>(samples));
-  for (std::size_t i = 0; i < max_terms; ++i) {
-    const Frequency f = frequency_of_term(i);
-    const double d = std::hypot(f.u, f.v);
-    factors[i] = !settings.enabled || i == 0
-                     ? 1.0f
-                     : static_cast<float>(1 / (1 + std::pow(d / cutoff, 2 * settings.order)));
-  }
-  return factors;
-}
+  ButterworthSettings settings_;
+  std::array<float, max_terms> scale_;
+  std::vector<Entry> entries_;  // by rising number of samples
+  std::vector<std::array<float, max_terms>> factors_;
+  Entry last_ = {0, 0};  // neighbours often have the same number
+};
+
+}  // namespace detail
 
 }  // namespace freqsynth
+
+#if defined(FREQSYNTH_HEADER_ONLY)
+#include "freqsynth/image/butterworth.inl"
+#endif

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "freqsynth/basis/config.h"
-#include "freqsynth/engine/block_grid.h"
 
 namespace freqsynth {
 
@@ -22,7 +21,7 @@ enum class CoefficientMeaning : std::uint8_t {
 };
 
 /// A grid of blocks of coefficients. The last blocks of an image whose size is no multiple of 8
-/// reach beyond it.
+/// reach beyond it. An image that was moved from is empty.
 class FrequencyImage {
  public:
   /// An empty image.
@@ -30,78 +29,67 @@ class FrequencyImage {
 
   /// All coefficients and counts zero. Sizes are in pixels; 0 makes an image without blocks.
   /// \throws std::invalid_argument when channels is 0 or the size overflows.
-  FrequencyImage(std::size_t width, std::size_t height, std::size_t channels,
-                 CoefficientMeaning meaning = CoefficientMeaning::point_function);
+  FREQSYNTH_API FrequencyImage(std::size_t width, std::size_t height, std::size_t channels,
+                               CoefficientMeaning meaning = CoefficientMeaning::point_function);
 
-  [[nodiscard]] std::size_t width() const { return width_; }
-  [[nodiscard]] std::size_t height() const { return height_; }
-  [[nodiscard]] std::size_t channels() const { return channels_; }
-  [[nodiscard]] std::size_t blocks_x() const { return blocks_x_; }
-  [[nodiscard]] std::size_t blocks_y() const { return blocks_y_; }
+  FrequencyImage(const FrequencyImage&) = default;
+  FrequencyImage& operator=(const FrequencyImage&) = default;
+  FREQSYNTH_API FrequencyImage(FrequencyImage&& other) noexcept;
+  FREQSYNTH_API FrequencyImage& operator=(FrequencyImage&& other) noexcept;
+  ~FrequencyImage() = default;
+
+  [[nodiscard]] std::size_t width() const { return size_.width; }
+  [[nodiscard]] std::size_t height() const { return size_.height; }
+  [[nodiscard]] std::size_t channels() const { return size_.channels; }
+  [[nodiscard]] std::size_t blocks_x() const { return size_.blocks_x; }
+  [[nodiscard]] std::size_t blocks_y() const { return size_.blocks_y; }
   [[nodiscard]] CoefficientMeaning meaning() const { return meaning_; }
 
   /// The 64 coefficients F (eqs. 1 and 2) of a channel of a block, in zig-zag order.
   [[nodiscard]] std::span<float, max_terms> coefficients(std::size_t block_x, std::size_t block_y,
-                                                         std::size_t channel);
+                                                         std::size_t channel) {
+    const std::size_t first = first_coefficient(block_x, block_y, channel);
+    return std::span<float, max_terms>(coefficients_.data() + first, max_terms);
+  }
   [[nodiscard]] std::span<const float, max_terms> coefficients(std::size_t block_x,
                                                                std::size_t block_y,
-                                                               std::size_t channel) const;
+                                                               std::size_t channel) const {
+    const std::size_t first = first_coefficient(block_x, block_y, channel);
+    return std::span<const float, max_terms>(coefficients_.data() + first, max_terms);
+  }
 
   /// Number of samples that the coefficients of a block were fit to.
-  [[nodiscard]] std::uint32_t& samples(std::size_t block_x, std::size_t block_y);
-  [[nodiscard]] std::uint32_t samples(std::size_t block_x, std::size_t block_y) const;
+  [[nodiscard]] std::uint32_t& samples(std::size_t block_x, std::size_t block_y) {
+    return samples_[block(block_x, block_y)];
+  }
+  [[nodiscard]] std::uint32_t samples(std::size_t block_x, std::size_t block_y) const {
+    return samples_[block(block_x, block_y)];
+  }
 
  private:
-  [[nodiscard]] std::size_t block(std::size_t block_x, std::size_t block_y) const;
+  struct Size {
+    std::size_t width = 0, height = 0, channels = 1;
+    std::size_t blocks_x = 0, blocks_y = 0;
+  };
 
-  std::size_t width_ = 0, height_ = 0, channels_ = 1;
-  std::size_t blocks_x_ = 0, blocks_y_ = 0;
+  [[nodiscard]] std::size_t block(std::size_t block_x, std::size_t block_y) const {
+    FREQSYNTH_ASSERT(block_x < size_.blocks_x && block_y < size_.blocks_y);
+    return block_y * size_.blocks_x + block_x;
+  }
+  [[nodiscard]] std::size_t first_coefficient(std::size_t block_x, std::size_t block_y,
+                                              std::size_t channel) const {
+    FREQSYNTH_ASSERT(channel < size_.channels);
+    return (block(block_x, block_y) * size_.channels + channel) * max_terms;
+  }
+
+  Size size_;
   CoefficientMeaning meaning_ = CoefficientMeaning::point_function;
   std::vector<float> coefficients_;     // [block][channel][term]
   std::vector<std::uint32_t> samples_;  // [block]
 };
 
-// ------------------------------------------------------------------------------------ definitions
-
-inline FrequencyImage::FrequencyImage(std::size_t width, std::size_t height, std::size_t channels,
-                                      CoefficientMeaning meaning)
-    : width_(width), height_(height), channels_(channels), meaning_(meaning) {
-  const BlockGrid grid = BlockGrid::of(width, height, channels);
-  blocks_x_ = grid.blocks_x;
-  blocks_y_ = grid.blocks_y;
-  coefficients_.resize(blocks_x_ * blocks_y_ * channels * max_terms);
-  samples_.resize(blocks_x_ * blocks_y_);
-}
-
-inline std::size_t FrequencyImage::block(std::size_t block_x, std::size_t block_y) const {
-  FREQSYNTH_ASSERT(block_x < blocks_x_ && block_y < blocks_y_);
-  return block_y * blocks_x_ + block_x;
-}
-
-inline std::span<float, max_terms> FrequencyImage::coefficients(std::size_t block_x,
-                                                                std::size_t block_y,
-                                                                std::size_t channel) {
-  FREQSYNTH_ASSERT(channel < channels_);
-  return std::span<float, max_terms>(
-      coefficients_.data() + (block(block_x, block_y) * channels_ + channel) * max_terms,
-      max_terms);
-}
-
-inline std::span<const float, max_terms> FrequencyImage::coefficients(std::size_t block_x,
-                                                                      std::size_t block_y,
-                                                                      std::size_t channel) const {
-  FREQSYNTH_ASSERT(channel < channels_);
-  return std::span<const float, max_terms>(
-      coefficients_.data() + (block(block_x, block_y) * channels_ + channel) * max_terms,
-      max_terms);
-}
-
-inline std::uint32_t& FrequencyImage::samples(std::size_t block_x, std::size_t block_y) {
-  return samples_[block(block_x, block_y)];
-}
-
-inline std::uint32_t FrequencyImage::samples(std::size_t block_x, std::size_t block_y) const {
-  return samples_[block(block_x, block_y)];
-}
-
 }  // namespace freqsynth
+
+#if defined(FREQSYNTH_HEADER_ONLY)
+#include "freqsynth/image/frequency_image.inl"
+#endif

@@ -1,21 +1,32 @@
 /// \file
-/// Quantised images to JPEG files and back: the coefficients themselves, no pixel is ever made.
-/// Component `freqsynth::jpeg`, which needs libjpeg; not part of freqsynth.h.
+/// Quantised images to the bytes of JPEG files and back: the coefficients themselves, no pixel is
+/// ever made. Component `freqsynth::jpeg`, which needs libjpeg; not part of freqsynth.h.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
-#include <iosfwd>
 #include <span>
-#include <string>
 #include <vector>
 
-#include "freqsynth/jpeg/quantization.h"
+#include "freqsynth/basis/config.h"
+#include "freqsynth/jpeg/quantized_image.h"
 
 namespace freqsynth {
 
 struct JpegOptions {
   bool progressive = false;  ///< coarse to fine instead of top to bottom; implies `optimize`
   bool optimize = true;      ///< Huffman codes made for this image: a second pass, a smaller file
+};
+
+/// How much a file may ask of its reader. A few bytes can claim any size, and a black image of
+/// 65500 x 65500 pixels is a file of 17 MB. Every limit may be raised.
+struct JpegLimits {
+  /// Width times height. Reading takes up to 12 bytes of memory for each of them.
+  std::uint64_t pixels = 100'000'000;
+  std::uint64_t bytes = 256 << 20;  ///< of the file
+  /// Passes over the image in which the file is coded: 1 of a baseline file, about 10 of a
+  /// progressive one. Each takes the time of a whole image, however few bytes it has.
+  std::size_t scans = 200;
 };
 
 /// The bytes of a JFIF file that holds exactly these coefficients, tables and sampling factors.
@@ -26,29 +37,15 @@ struct JpegOptions {
 ///         1 or 3, more than 4 tables, sampling factors with a sum of products above 10, AC values
 ///         beyond +-1023, DC values not in -1024..1023.
 /// \throws std::runtime_error with libjpeg's message when libjpeg fails.
-[[nodiscard]] std::vector<std::uint8_t> encode_jpeg(const QuantizedImage& image,
-                                                    const JpegOptions& options = {});
-
-/// encode_jpeg() into a file. A file of that name is replaced when all is written and keeps its
-/// content until then and on any failure; devices and pipes are written directly.
-/// \throws what encode_jpeg() throws, and std::runtime_error naming the file and the system's reason
-///         when it cannot be written.
-void write_jpeg(const std::string& file, const QuantizedImage& image,
-                const JpegOptions& options = {});
-
-/// encode_jpeg() into a stream.
-/// \throws what encode_jpeg() throws, and std::runtime_error when the stream fails.
-void write_jpeg(std::ostream& stream, const QuantizedImage& image, const JpegOptions& options = {});
+[[nodiscard]] FREQSYNTH_API std::vector<std::uint8_t> encode_jpeg(const QuantizedImage& image,
+                                                                  const JpegOptions& options = {});
 
 /// Coefficients, tables and sampling factors of the bytes of a JPEG file, baseline or progressive,
 /// grayscale or YCbCr. QuantizedImage::clamped is 0.
 /// \throws std::runtime_error with libjpeg's message when the data is no JPEG, is cut off or damaged
-///         (also where libjpeg would only warn and guess), or saying so when it is of another kind:
-///         RGB, CMYK, YCCK.
-[[nodiscard]] QuantizedImage decode_jpeg(std::span<const std::uint8_t> data);
-
-/// decode_jpeg() of a file.
-/// \throws std::runtime_error naming the file and the reason.
-[[nodiscard]] QuantizedImage read_jpeg(const std::string& file);
+///         (also where libjpeg would only warn and guess), or saying so when it is of another kind,
+///         RGB, CMYK, YCCK, or beyond a limit; what is beyond one is not allocated.
+[[nodiscard]] FREQSYNTH_API QuantizedImage decode_jpeg(std::span<const std::uint8_t> data,
+                                                       const JpegLimits& limits = {});
 
 }  // namespace freqsynth

@@ -2,6 +2,7 @@
 
 #include "freqsynth/freqsynth.h"
 #include "freqsynth/jpeg/jpeg.h"
+#include "freqsynth/jpeg/jpeg_file.h"
 
 // Prints the version, and only that, when the component works.
 int main() {

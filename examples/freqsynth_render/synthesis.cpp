@@ -1,0 +1,222 @@
+#include "synthesis.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "direct.h"
+#include "freqsynth/basis/sample_sequence.h"
+#include "freqsynth/engine/thread_pool.h"
+#include "freqsynth/freqsynth.h"
+#include "picture.h"
+#include "progress_bar.h"
+#include "run_stats.h"
+#include "sampling.h"
+
+namespace {
+
+/// Samples per pixel of the pictures of figures 12 and 14.
+constexpr std::array frame_rates{1.0 / 64, 1.0 / 32, 1.0 / 16, 1.0 / 8, 1.0 / 4, 1.0 / 2, 1.0, 2.0};
+
+/// Finished pixels, or the paper's function where the user asks for it.
+freqsynth::FrequencyImage image_of(const freqsynth::Synthesizer& engine, const Options& options) {
+  if (options.pixel_filter == freqsynth::PixelFilter::none) return engine.image();
+  freqsynth::FinishSettings settings;
+  if (engine.settings().noisy) settings = freqsynth::FinishSettings::noisy();
+  settings.butterworth = options.butterworth;
+  settings.residuals = !options.no_residuals;
+  return engine.finished_image(settings);
+}
+
+Picture picture_of(const freqsynth::FrequencyImage& image, const Options& options, double scale) {
+  const freqsynth::ReconstructionSettings settings{options.butterworth, options.pixel_filter, true};
+  Picture picture{freqsynth::scaled_size(image.width(), scale),
+                  freqsynth::scaled_size(image.height(), scale), image.channels(),
+                  freqsynth::reconstruct(image, settings, scale)};
+  if (options.averaging == Averaging::display) {
+    picture.encoded = true;
+    std::vector<float>& pixels = picture.pixels;
+    for (std::size_t i = 0; picture.channels == 3 && i < pixels.size(); i += 3) {
+      const auto rgb = freqsynth::display_rgb({pixels[i], pixels[i + 1], pixels[i + 2]});
+      std::copy(rgb.begin(), rgb.end(), pixels.begin() + static_cast<std::ptrdiff_t>(i));
+    }
+    for (float& value : pixels) value /= 255;
+  }
+  return picture;
+}
+
+/// The sampling density of figures 11 and 13.
+Picture density_of(const freqsynth::FrequencyImage& image) {
+  std::uint32_t most = 1;
+  for (std::size_t by = 0; by < image.blocks_y(); ++by) {
+    for (std::size_t bx = 0; bx < image.blocks_x(); ++bx) {
+      most = std::max(most, image.samples(bx, by));
+    }
+  }
+  Picture picture{image.width(), image.height(), 1, {}};
+  for (std::size_t y = 0; y < image.height(); ++y) {
+    for (std::size_t x = 0; x < image.width(); ++x) {
+      picture.pixels.push_back(static_cast<float>(image.samples(x / 8, y / 8)) /
+                               static_cast<float>(most));
+    }
+  }
+  return picture;
+}
+
+std::string frame_name(const Options& options, std::size_t frame) {
+  const double rate = frame_rates[frame];
+  const std::string share =
+      rate < 1 ? "1_" + std::to_string(std::lround(1 / rate)) : std::to_string(std::lround(rate));
+  return options.frames + "/" + std::to_string(frame + 1) + "_spp_" + share + ".png";
+}
+
+std::string contact_sheet_name(const Options& options) {
+  return options.frames + "/contact_sheet.png";
+}
+
+freqsynth::SynthesisSettings settings_of(const Options& options, const scenes::Scene& scene) {
+  freqsynth::SynthesisSettings settings;
+  settings.width = options.width;
+  settings.height = options.height;
+  settings.channels = options.gray ? 1 : 3;
+  settings.wave = options.wave;
+  settings.noisy = scene.noisy();
+  settings.list.seed = options.seed;
+  settings.list.samples_per_term = options.terms_every;
+  if (options.until_quality) {
+    settings.quantization = freqsynth::quantization_target(quantization_of(options),
+                                                           settings.channels, options.tolerance);
+  }
+  // Room for blocks with four times the average.
+  if (std::isfinite(options.samples_per_pixel)) {
+    constexpr auto most = static_cast<double>(freqsynth::SampleSequence::max_size);
+    const double generous = std::min(4 * 64 * options.samples_per_pixel, most);
+    settings.max_samples_per_block =
+        std::max(settings.max_samples_per_block, static_cast<std::size_t>(generous));
+  }
+  return settings;
+}
+
+/// The samples per pixel at which something is to be written, rising.
+std::vector<double> stops_of(const Options& options) {
+  std::vector<double> stops;
+  if (!options.output.empty()) stops.push_back(options.samples_per_pixel);
+  if (!options.frames.empty()) stops.insert(stops.end(), frame_rates.begin(), frame_rates.end());
+  std::sort(stops.begin(), stops.end());
+  stops.erase(std::unique(stops.begin(), stops.end()), stops.end());
+  return stops;
+}
+
+/// One synthesis, and all that is written of it on the way.
+class Synthesis {
+ public:
+  Synthesis(const Options& options, const scenes::Scene& scene)
+      : options_(options),
+        scene_(scene),
+        stops_(stops_of(options)),
+        engine_(settings_of(options, scene)),
+        pool_(options.threads) {}
+
+  void run() {
+    for (const double stop : stops_) {
+      const freqsynth::StopReason reason = run_to(stop);
+      const freqsynth::FrequencyImage image = image_of(engine_, options_);
+      if (!options_.output.empty() && stop == options_.samples_per_pixel) {
+        write_output(image, reason);
+      }
+      const auto frame = std::find(frame_rates.begin(), frame_rates.end(), stop);
+      if (!options_.frames.empty() && frame != frame_rates.end()) {
+        frames_.push_back(picture_of(image, options_, 1));
+        write_picture(frame_name(options_, static_cast<std::size_t>(frame - frame_rates.begin())),
+                      frames_.back());
+      }
+    }
+    if (!frames_.empty()) write_picture(contact_sheet_name(options_), contact_sheet(frames_, 4));
+    tell_bad_samples();
+  }
+
+ private:
+  /// Goes on to `stop` samples per pixel.
+  freqsynth::StopReason run_to(double stop) {
+    const std::size_t channels = engine_.settings().channels;
+    const auto sampler = [&](std::span<const freqsynth::Request> requests,
+                             std::span<float> values) {
+      for (std::size_t i = 0; i < requests.size(); ++i) {
+        sample_scene(scene_, requests[i].x, requests[i].y, requests[i].id,
+                     values.subspan(i * channels, channels));
+      }
+    };
+    const auto progress = [&](double share) {
+      if (std::isfinite(stop)) {
+        bar_.show(share * stop / stops_.back());
+      } else {
+        bar_.count(samples_per_pixel(options_, engine_.stats()));
+      }
+      return true;
+    };
+    const auto run = [&](auto&& values) {
+      return engine_.run(values, {.samples_per_pixel = stop}, pool_, progress);
+    };
+    const freqsynth::RunReport report = options_.averaging == Averaging::display
+                                            ? run(freqsynth::DisplaySampler(sampler, channels))
+                                            : run(sampler);
+    seconds_.sampler += report.sampler_seconds;
+    seconds_.core += report.core_seconds;
+    if (report.reason == freqsynth::StopReason::unusable) {
+      throw std::runtime_error("not one sample of the scene is a finite number");
+    }
+    if (report.reason == freqsynth::StopReason::exhausted) {
+      std::fprintf(stderr, "freqsynth_render: every block has its %zu samples\n",
+                   engine_.settings().max_samples_per_block);
+    }
+    return report.reason;
+  }
+
+  void write_output(const freqsynth::FrequencyImage& image, freqsynth::StopReason reason) {
+    if (options_.direct) {
+      write_direct(options_, image);
+    } else {
+      write_picture(options_.output, picture_of(image, options_, options_.scale),
+                    {options_.quality, options_.subsampling});
+    }
+    seconds_.wall =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+    if (!options_.density.empty()) write_picture(options_.density, density_of(image));
+    if (!options_.stats.empty()) write_stats(options_, engine_.stats(), reason, seconds_);
+  }
+
+  void tell_bad_samples() const {
+    const auto bad = engine_.bad_samples();
+    if (bad.empty()) return;
+    std::fprintf(stderr, "freqsynth_render: %llu samples were not finite, the first at (%g, %g)\n",
+                 static_cast<unsigned long long>(engine_.stats().bad_samples), bad.front().x,
+                 bad.front().y);
+  }
+
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  const Options& options_;
+  const scenes::Scene& scene_;
+  std::vector<double> stops_;
+  freqsynth::Synthesizer engine_;
+  freqsynth::ThreadPool pool_;
+  ProgressBar bar_;
+  Seconds seconds_;
+  std::vector<Picture> frames_;
+};
+
+}  // namespace
+
+void synthesize(const Options& options, const scenes::Scene& scene) {
+  Synthesis(options, scene).run();
+}
+
+void prepare_frames(const Options& options) {
+  make_folder(options.frames);
+  check_picture(frame_name(options, 0), options.width, options.height);
+  check_picture(contact_sheet_name(options), options.width, options.height);
+}

@@ -1,0 +1,37 @@
+/// \file
+/// Linear maps between blocks of pixels of different sizes, in frequencies: how chroma is halved
+/// and enlarged without making a pixel.
+#pragma once
+
+#include <cstddef>
+
+#include "freqsynth/basis/aligned.h"
+#include "freqsynth/basis/config.h"
+
+namespace freqsynth::detail {
+
+/// A map of 8 frequencies of one axis to 8 others.
+class AxisMap {
+ public:
+  /// Block `part` (of `factor` along the axis) to its share of the block of means of `factor`
+  /// pixels.
+  static AxisMap shrink(std::size_t part, std::size_t factor) { return {part, factor, false}; }
+
+  /// A block to part `part` of the `factor` blocks in which each pixel is repeated `factor` times.
+  static AxisMap enlarge(std::size_t part, std::size_t factor) { return {part, factor, true}; }
+
+  /// The coefficients of a block, in rows of frequencies [v][u], after both axes.
+  static AlignedBlock apply(const AxisMap& across, const AxisMap& down, const AlignedBlock& block);
+
+ private:
+  AxisMap(std::size_t part, std::size_t factor, bool enlarge);
+
+  AlignedBlock to_from_;  // [to][from]
+  AlignedBlock from_to_;  // transposed
+};
+
+}  // namespace freqsynth::detail
+
+#if defined(FREQSYNTH_HEADER_ONLY)
+#include "freqsynth/jpeg/block_scaling.inl"
+#endif

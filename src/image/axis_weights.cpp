@@ -1,0 +1,1 @@
+#include "freqsynth/image/axis_weights.inl"

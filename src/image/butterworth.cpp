@@ -1,0 +1,1 @@
+#include "freqsynth/image/butterworth.inl"

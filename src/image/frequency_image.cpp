@@ -1,0 +1,1 @@
+#include "freqsynth/image/frequency_image.inl"

@@ -1,0 +1,1 @@
+#include "freqsynth/image/pixel_view.inl"

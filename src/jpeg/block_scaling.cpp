@@ -1,0 +1,1 @@
+#include "freqsynth/jpeg/block_scaling.inl"

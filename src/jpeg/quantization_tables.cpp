@@ -1,0 +1,1 @@
+#include "freqsynth/jpeg/quantization_tables.inl"

@@ -1,0 +1,1 @@
+#include "freqsynth/jpeg/quantized_image.inl"
