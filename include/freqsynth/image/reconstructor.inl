@@ -56,14 +56,18 @@ class BlockPixels {
     float* const corner = out.data + static_cast<std::ptrdiff_t>(channel) * out.channel_stride +
                           static_cast<std::ptrdiff_t>(row_->first) * out.row_stride +
                           static_cast<std::ptrdiff_t>(column_->first) * out.pixel_stride;
+    const std::size_t count = column_->count;
+    const std::ptrdiff_t step = out.pixel_stride;
     for (std::size_t r = 0; r < row_->count; ++r) {
       float* const line = corner + static_cast<std::ptrdiff_t>(r) * out.row_stride;
       const float* const source = pixels_.data() + r * stride_;
-      const bool add_row = r == 0 && row_->continues;
-      for (std::size_t c = 0; c < column_->count; ++c) {
-        float& target = line[static_cast<std::ptrdiff_t>(c) * out.pixel_stride];
-        const bool add = add_row || (c == 0 && column_->continues);
-        target = add ? target + source[c] : source[c];
+      // Pixels that an earlier block has begun: the first row, or the first one of a row.
+      const bool begun_row = r == 0 && row_->continues;
+      const std::size_t begun = begun_row ? count : column_->continues && count > 0 ? 1 : 0;
+      for (std::size_t c = 0; c < begun; ++c)
+        line[static_cast<std::ptrdiff_t>(c) * step] += source[c];
+      for (std::size_t c = begun; c < count; ++c) {
+        line[static_cast<std::ptrdiff_t>(c) * step] = source[c];
       }
     }
   }
