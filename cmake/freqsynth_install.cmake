@@ -3,7 +3,8 @@ include(GNUInstallDirs)
 
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/freqsynth")
 
-install(TARGETS freqsynth EXPORT freqsynthTargets FILE_SET HEADERS FILE_SET definitions)
+install(TARGETS freqsynth freqsynth_header_only EXPORT freqsynthTargets
+  FILE_SET HEADERS FILE_SET definitions)
 install(EXPORT freqsynthTargets NAMESPACE freqsynth:: DESTINATION "${package_dir}")
 # The build tree is a package too: -Dfreqsynth_DIR=<build>.
 export(EXPORT freqsynthTargets NAMESPACE freqsynth::

@@ -26,10 +26,5 @@ target_sources(freqsynth_jpeg PUBLIC
   FILE_SET HEADERS BASE_DIRS include FILES
   include/freqsynth/jpeg/jpeg.h include/freqsynth/jpeg/jpeg_file.h)
 target_link_libraries(freqsynth_jpeg PUBLIC freqsynth PRIVATE JPEG::JPEG)
-set_target_properties(freqsynth_jpeg PROPERTIES
-  EXPORT_NAME jpeg
-  VERSION ${PROJECT_VERSION}
-  SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
-  INSTALL_RPATH "$ORIGIN"
-  VERIFY_INTERFACE_HEADER_SETS ${PROJECT_IS_TOP_LEVEL})
-freqsynth_own_target(freqsynth_jpeg)
+set_target_properties(freqsynth_jpeg PROPERTIES EXPORT_NAME jpeg INSTALL_RPATH "$ORIGIN")
+freqsynth_library(freqsynth_jpeg)

@@ -1,10 +1,18 @@
+# gcc, clang, and those that take their options.
+set(freqsynth_gnu_like FALSE)
+if(CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang" AND NOT CMAKE_CXX_COMPILER_FRONTEND_VARIANT STREQUAL "MSVC")
+  set(freqsynth_gnu_like TRUE)
+endif()
+
 # Settings of the project's own targets. All PRIVATE: a user's target that links freqsynth must
 # not inherit warnings, sanitizers or an instruction set.
 function(freqsynth_own_target target)
   set_target_properties(${target} PROPERTIES
     CXX_EXTENSIONS OFF
     COMPILE_WARNING_AS_ERROR "${FREQSYNTH_WARNINGS_AS_ERRORS}")
-  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wshadow)
+  if(freqsynth_gnu_like)
+    target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wshadow)
+  endif()
   if(FREQSYNTH_NATIVE)
     target_compile_options(${target} PRIVATE -march=native)
   endif()

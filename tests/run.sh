@@ -1,16 +1,23 @@
 #!/usr/bin/env bash
 # Builds and runs the tests in build/. On Debian, installs what they need and is missing.
-#   tests/run.sh [--sanitize] [--clang] [arguments of ctest]
+#   tests/run.sh [--sanitize | --threads] [--clang] [arguments of ctest]
 #     --sanitize  the unit tests only, with AddressSanitizer and UndefinedBehaviorSanitizer
+#     --threads   the tests with several threads only, with ThreadSanitizer
 #     --clang     with clang++
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
-sanitize=
+preset=tests
 clang=
 while [[ $# -gt 0 ]]; do
   case $1 in
-    --sanitize) sanitize=1 ;;
+    --sanitize | --threads)
+      if [[ $preset != tests ]]; then
+        echo "--sanitize and --threads exclude each other" >&2
+        exit 2
+      fi
+      preset=${1#--}
+      ;;
     --clang) clang=1 ;;
     *) break ;;
   esac
@@ -18,35 +25,38 @@ while [[ $# -gt 0 ]]; do
 done
 
 packages=(cmake g++ ninja-build libgtest-dev libgmock-dev libjpeg62-turbo-dev)
-if [[ -z $sanitize ]]; then
-  packages+=(clang-format libbenchmark-dev libeigen3-dev libfftw3-dev libopenblas-dev
-    libjpeg-turbo-progs libopenimageio-dev pkg-config)
-fi
+targets=(all)
+selection=()
+launcher=()
+case $preset in
+  tests)
+    # clang also for the consumers among the tests.
+    packages+=(clang clang-format libbenchmark-dev libeigen3-dev libfftw3-dev libopenblas-dev
+      libjpeg-turbo-progs libopenimageio-dev pkg-config)
+    # Otherwise the test that each header compiles alone would build them, one by one.
+    targets+=(all_verify_interface_header_sets)
+    ;;
+  sanitize) selection=(-L unit) ;;
+  threads)
+    selection=(-L concurrent)
+    # ThreadSanitizer wants memory where it expects it.
+    if setarch "$(uname -m)" -R true 2>/dev/null; then
+      launcher=(setarch "$(uname -m)" -R)
+    fi
+    ;;
+esac
 if [[ -n $clang ]]; then
-  packages+=(clang)
+  packages+=(clang libclang-rt-dev)
+  if [[ $preset == tests ]]; then preset=clang; else preset+=-clang; fi
 fi
 "$root/.ci/install_missing" "${packages[@]}"
 
-case $sanitize/$clang in
-  /) preset=tests ;;
-  /1) preset=clang ;;
-  1/) preset=sanitize ;;
-  1/1) preset=sanitize-clang ;;
-esac
-targets=(all)
-selection=()
-if [[ -n $sanitize ]]; then
-  selection=(-L unit)
-else
-  # Otherwise the test that each header compiles alone would build them, one by one.
-  targets+=(all_verify_interface_header_sets)
-fi
 if command -v ninja >/dev/null; then
   export CMAKE_GENERATOR=${CMAKE_GENERATOR:-Ninja}
 fi
 
 cd "$root"
 cmake --preset "$preset"
-cmake --build "build/$preset" -j "$(nproc)" --target "${targets[@]}"
-exec ctest --test-dir "build/$preset" --output-on-failure -j "$(nproc)" --no-label-summary \
-  --no-tests=error "${selection[@]}" "$@"
+"${launcher[@]}" cmake --build "build/$preset" -j "$(nproc)" --target "${targets[@]}"
+exec "${launcher[@]}" ctest --test-dir "build/$preset" --output-on-failure -j "$(nproc)" \
+  --no-label-summary --no-tests=error "${selection[@]}" "$@"

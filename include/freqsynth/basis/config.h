@@ -22,21 +22,21 @@
 #endif
 
 /// FREQSYNTH_INLINE stands before definitions in x.inl; FREQSYNTH_API before what a shared library
-/// shows to the world (FREQSYNTH_SHARED is set by the build where that needs to be known).
+/// shows to the world: with FREQSYNTH_SHARED, which the target of a shared library sets for its
+/// users. A static library hides all of it, so that a plug-in made with it shows nothing of it.
 #if defined(FREQSYNTH_HEADER_ONLY)
 #define FREQSYNTH_INLINE inline
-#define FREQSYNTH_API
 #else
 #define FREQSYNTH_INLINE
-#if defined(_WIN32) && defined(FREQSYNTH_SHARED) && defined(FREQSYNTH_BUILDING)
-#define FREQSYNTH_API __declspec(dllexport)
-#elif defined(_WIN32) && defined(FREQSYNTH_SHARED)
-#define FREQSYNTH_API __declspec(dllimport)
-#elif defined(_WIN32)
-#define FREQSYNTH_API
-#else
-#define FREQSYNTH_API __attribute__((visibility("default")))
 #endif
+#if defined(FREQSYNTH_HEADER_ONLY) || !defined(FREQSYNTH_SHARED)
+#define FREQSYNTH_API
+#elif !defined(_WIN32)
+#define FREQSYNTH_API __attribute__((visibility("default")))
+#elif defined(FREQSYNTH_BUILDING)
+#define FREQSYNTH_API __declspec(dllexport)
+#else
+#define FREQSYNTH_API __declspec(dllimport)
 #endif
 
 namespace freqsynth {
