@@ -1,0 +1,37 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+
+#include "freqsynth/basis/sample_sequence.h"
+
+namespace freqsynth {
+namespace {
+
+/// Most positions with a coordinate of 0 or 1 that follow each other.
+std::size_t longest_run(std::uint64_t seed, std::size_t count) {
+  SampleSequence sequence(seed);
+  std::size_t run = 0, longest = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const SequencePosition& position = sequence[i];
+    const bool on_border = position.s == 0 || position.s == 1 || position.t == 0 || position.t == 1;
+    run = on_border ? run + 1 : 0;
+    longest = std::max(longest, run);
+  }
+  return longest;
+}
+
+class BorderRuns : public testing::TestWithParam<std::uint64_t> {};
+INSTANTIATE_TEST_SUITE_P(Seeds, BorderRuns, testing::Range(std::uint64_t{0}, std::uint64_t{5}));
+
+TEST_P(BorderRuns, AreAsLongAsTheConstantSays) {
+  EXPECT_EQ(longest_run(GetParam(), std::size_t{129} * 129), SampleSequence::longest_border_run);
+}
+
+TEST(BorderRuns, AreNotLongerInTheWholeSequence) {
+  EXPECT_EQ(longest_run(3, SampleSequence::max_size), SampleSequence::longest_border_run);
+}
+
+}  // namespace
+}  // namespace freqsynth

@@ -1,0 +1,113 @@
+#include "freqsynth/engine/block_store.h"
+#include "freqsynth/refine/least_squares_refiner.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "support/oracles.h"
+#include "support/refiner_helpers.h"
+#include "support/scripted_refiner.h"
+
+namespace freqsynth {
+namespace {
+
+using helpers::ScriptedRefiner;
+using helpers::shared_list;
+
+TEST(BlockStore, CountsFollowATableThroughRandomSamples) {
+  constexpr std::size_t blocks = 9, most = 12;
+  BlockStore<ScriptedRefiner> store(ScriptedRefiner({1}), blocks, most);
+  ASSERT_EQ(store.size(), blocks);
+  EXPECT_EQ(store.most_samples(), most);
+  std::vector<std::size_t> counts(blocks);
+  oracle::Random random(1);
+  for (std::size_t total = 0; total < blocks * most;) {
+    std::size_t block = random.below(blocks);
+    // One block is left alone for long.
+    if (block == 4 && total < 60) block = 3;
+    if (store.full(block)) continue;
+    const float value = random.value();
+    ASSERT_EQ(store.absorb(block, &value), value) << "what the refiner returns";
+    ++counts[block];
+    ++total;
+    for (std::size_t b = 0; b < blocks; ++b) {
+      ASSERT_EQ(store.samples(b), counts[b]);
+      ASSERT_EQ(store.full(b), counts[b] == most);
+      ASSERT_EQ(store.freedom(b), store.refiner().freedom(counts[b]));
+    }
+    ASSERT_EQ(store.largest(), *std::max_element(counts.begin(), counts.end()));
+    ASSERT_EQ(store.untouched(),
+              static_cast<std::size_t>(std::count(counts.begin(), counts.end(), 0u)));
+  }
+}
+
+TEST(BlockStore, StartsUntouched) {
+  const BlockStore<ScriptedRefiner> store(ScriptedRefiner({1}), 5, 1);
+  EXPECT_EQ(store.untouched(), 5u);
+  EXPECT_EQ(store.largest(), 0u);
+  EXPECT_FALSE(store.full(0));
+  const BlockStore<ScriptedRefiner> none(ScriptedRefiner({1}), 0, 1);
+  EXPECT_EQ(none.size(), 0u);
+  EXPECT_EQ(none.untouched(), 0u);
+}
+
+/// A block that a refiner is fed with directly.
+struct ByHand {
+  explicit ByHand(const LeastSquaresRefiner& refiner) : state(refiner.state_size()) {
+    refiner.reset(state.data());
+  }
+  detail::AlignedVector<float> state;
+  std::size_t samples = 0;
+};
+
+void expect_same(const BlockStore<LeastSquaresRefiner>& store, std::size_t block,
+                 const LeastSquaresRefiner& refiner, const ByHand& by_hand) {
+  const float* state = by_hand.state.data();
+  const std::size_t n = by_hand.samples;
+  ASSERT_EQ(store.samples(block), n);
+  ASSERT_EQ(store.freedom(block), refiner.freedom(n));
+  ASSERT_EQ(store.residual(block), refiner.residual(state, n));
+  for (std::size_t c = 0; c < refiner.channels(); ++c) {
+    ASSERT_EQ(store.residual(block, c), refiner.residual(state, n, c));
+    std::array<float, max_terms> found, expected;
+    store.coefficients(block, c, found);
+    refiner.coefficients(state, n, c, expected);
+    ASSERT_EQ(found, expected);
+    const BlockFit fit = store.fit(block, c);
+    ASSERT_EQ(fit.coefficients, expected);
+    ASSERT_EQ(fit.residual, refiner.residual(state, n, c));
+    ASSERT_TRUE(std::ranges::equal(fit.pixel_sums, refiner.pixel_sums(state, c)));
+  }
+}
+
+class Stores : public testing::TestWithParam<std::size_t> {};
+INSTANTIATE_TEST_SUITE_P(Channels, Stores, testing::Values(1, 3, 17));
+
+TEST_P(Stores, BlocksAreThoseOfARefinerFedByHand) {
+  const std::size_t channels = GetParam();
+  constexpr std::size_t blocks = 7;
+  const LeastSquaresRefiner refiner(shared_list(), channels);
+  BlockStore<LeastSquaresRefiner> store(refiner, blocks, 1000);
+  std::vector<ByHand> by_hand(blocks, ByHand(refiner));
+  oracle::Random random(static_cast<unsigned>(channels));
+  for (int n = 0; n < 600; ++n) {
+    // Of different speeds, and the last one never has a sample.
+    const std::size_t block = std::min(random.below(blocks - 1), random.below(blocks - 1));
+    std::vector<float> values;
+    for (std::size_t c = 0; c < channels; ++c) values.push_back(random.value());
+    ByHand& own = by_hand[block];
+    store.prefetch(block, own.samples);
+    const float change = refiner.absorb(own.state.data(), own.samples++, values.data());
+    ASSERT_EQ(store.absorb(block, values.data()), change);
+    ASSERT_NO_FATAL_FAILURE(expect_same(store, block, refiner, own));
+  }
+  for (std::size_t block = 0; block < blocks; ++block) {
+    ASSERT_NO_FATAL_FAILURE(expect_same(store, block, refiner, by_hand[block]));
+  }
+}
+
+}  // namespace
+}  // namespace freqsynth
