@@ -134,6 +134,22 @@ TEST(BlockGrid, NamesAreDistinctAtTheEndOfTheSequenceToo) {
   EXPECT_EQ(names.size(), 12u);
 }
 
+TEST(BlockGrid, NothingLiesBelowTheLastRowOfTheLargestGrid) {
+  constexpr Block columns = 2147483647;
+  const BlockGrid grid = BlockGrid::of(std::size_t{columns} * 8, 16, 1);
+  const auto last = static_cast<Block>(grid.size() - 1);
+  std::vector<Block> found;
+  grid.visit_beside(last, [&](Block other) { found.push_back(other); });
+  EXPECT_EQ(found, (std::vector<Block>{last - 1, last - columns}));
+  std::vector<Block> sharing;
+  for (const SequencePosition& position : positions_of_sequence(0)) {
+    if (position.side != BlockSide::bottom) continue;
+    grid.visit_sharing(last, position,
+                       [&](Block other, std::uint32_t) { sharing.push_back(other); });
+  }
+  EXPECT_TRUE(sharing.empty());
+}
+
 /// Reflects at 0 and at `size` as long as it takes.
 double reflected(double x, double size) {
   while (x < 0 || x > size) x = x < 0 ? -x : 2 * size - x;

@@ -139,6 +139,18 @@ TEST_P(LeastSquaresFit, OfAFunctionOfTheFirstTermsNothingIsLeft) {
   EXPECT_GE(refiner.residual(block.state(), 300), 0);
 }
 
+TEST_P(LeastSquaresFit, ResidualOfManyLargestValuesIsTheirVariance) {
+  const LeastSquaresRefiner refiner(list_, 1, {1});
+  detail::AlignedVector<float> state(refiner.state_size());
+  refiner.reset(state.data());
+  for (std::size_t n = 1; n <= 30000; ++n) {
+    const float value = n % 2 == 0 ? max_sample_magnitude : -max_sample_magnitude;
+    refiner.absorb(state.data(), n - 1, &value);
+    ASSERT_FLOAT_EQ(refiner.residual(state.data(), n), refiner.residual(state.data(), n, 0))
+        << n << " samples";
+  }
+}
+
 TEST_P(LeastSquaresFit, PixelSumsAreTheSharesOfTheSamples) {
   const LeastSquaresRefiner refiner(list_, 2);
   Fed block(refiner);
