@@ -13,6 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "freqsynth/engine/block_grid.h"
+
 namespace tune {
 namespace {
 

@@ -97,7 +97,7 @@ void BlockGrid::visit_sharing(std::uint32_t block, const SequencePosition& posit
   const bool has_left = x > 0;
   const bool has_right = x + 1 < columns;
   const bool has_top = block >= columns;
-  const bool has_bottom = block + columns < size();
+  const bool has_bottom = std::size_t{block} + columns < size();
   switch (position.side) {
     case BlockSide::left:
       if (has_left) visit(block - 1, position.partner);
@@ -136,7 +136,7 @@ void BlockGrid::visit_beside(std::uint32_t block, Visitor&& visit) const {
   if (x > 0) visit(block - 1);
   if (x + 1 < columns) visit(block + 1);
   if (block >= columns) visit(block - columns);
-  if (block + columns < size()) visit(block + columns);
+  if (std::size_t{block} + columns < size()) visit(block + columns);
 }
 
 }  // namespace freqsynth

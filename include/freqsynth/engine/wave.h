@@ -37,7 +37,8 @@ class Wave {
 
   /// Whether a slot waits to be handed out.
   [[nodiscard]] bool waiting() const { return next_ < slots_.size() || !returned_.empty(); }
-  /// Hands out a slot that waits, which is owed from then on: what came back first.
+  /// Hands out a slot that waits, which is owed from then on; those that came back go before new
+  /// ones.
   std::uint32_t hand_out();
   [[nodiscard]] bool owed(std::size_t slot) const {
     return slot < slots_.size() && states_[slot] == State::owed;

@@ -141,7 +141,8 @@ inline float LeastSquaresRefiner::residual(const float* state, std::size_t sampl
   for (std::size_t c = 0; c < channels_; ++c) squares += weights_[c] * squared_residuals(state, c);
   // Large weights of large values may be more than a float holds.
   constexpr float most = 1e34f;
-  return squares < most ? squares / freedom(samples) : most;
+  const float residual = squares / freedom(samples);
+  return residual < most ? residual : most;
 }
 
 }  // namespace freqsynth
