@@ -41,6 +41,25 @@ concept BlockMeasure = requires(M& measure, const M& known, const BlockView<R>& 
   { known.cares(value) } -> std::same_as<bool>;
 };
 
+/// The residual of a block, weighted over the channels, but no more than the signal's range allows:
+/// a stray value must not speak louder than all others.
+template <Refiner R>
+[[nodiscard]] float plausible_residual(const BlockView<R>& view, std::uint32_t block) {
+  // The residuals of least squares have at most the sum of squares of the values themselves.
+  const float most = view.signal.most_variance(view.blocks.refiner().weights()) *
+                     static_cast<float>(view.blocks.samples(block)) / view.blocks.freedom(block);
+  return std::min(view.blocks.residual(block), most);
+}
+
+/// The same of one channel.
+template <Refiner R>
+[[nodiscard]] float plausible_residual(const BlockView<R>& view, std::uint32_t block,
+                                       std::size_t channel) {
+  const float most = view.signal.most_variance(channel) *
+                     static_cast<float>(view.blocks.samples(block)) / view.blocks.freedom(block);
+  return std::min(view.blocks.residual(block, channel), most);
+}
+
 /// The paper's measure: from what the last samples have changed.
 class ChangeMeasure {
  public:
@@ -48,8 +67,16 @@ class ChangeMeasure {
       : metric_(settings, most_samples), variations_(blocks) {}
 
   template <Refiner R>
-  void absorbed(const BlockView<R>&, std::uint32_t block, float change) {
-    variations_[block] = metric_.variation(variations_[block], std::min(change, most_priority));
+  void absorbed(const BlockView<R>& view, std::uint32_t block, float change) {
+    // A plausible change is about that of a fit of T terms to n values in the signal's range.
+    const std::size_t taken = view.blocks.samples(block);
+    const auto samples = static_cast<float>(taken);
+    const auto terms = static_cast<float>(view.blocks.refiner().terms(taken));
+    const float range = 8 * view.signal.most_variance(view.blocks.refiner().weights());
+    const float most = range * terms / (samples * samples);
+    // What was noted before the range was known may be larger than all of it.
+    const float before = std::min(variations_[block], range);
+    variations_[block] = metric_.variation(before, std::min(change, most));
   }
 
   template <Refiner R>
@@ -66,7 +93,7 @@ class ChangeMeasure {
   std::vector<float> variations_;
 };
 
-/// The residuals of all blocks, and what blocks know of those beside them.
+/// The plausible residuals of all blocks, and what blocks know of those beside them.
 class ResidualBook {
  public:
   explicit ResidualBook(std::size_t blocks) : residuals_(blocks), told_(blocks) {}
@@ -74,7 +101,7 @@ class ResidualBook {
   /// A block has taken in a sample.
   template <Refiner R>
   void absorbed(const BlockView<R>& view, std::uint32_t block) {
-    const float residual = view.blocks.residual(block);
+    const float residual = plausible_residual(view, block);
     sum_ += double{residual} - double{residuals_[block]};
     residuals_[block] = residual;
   }

@@ -187,6 +187,7 @@ void Engine<R, M>::note(const Wave::Slot& slot, const float* values) {
   for (std::size_t c = 0; c < channels; ++c) usable += is_usable_sample(values[c]) ? 1 : 0;
   any_usable_ = any_usable_ || usable > 0;
   if (usable == channels) {
+    signal_.note(values);
     if (place.side == BlockSide::corner) signal_.add(values);
     return;
   }

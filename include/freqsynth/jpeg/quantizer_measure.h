@@ -59,7 +59,8 @@ class QuantizerMeasure {
     std::array<float, max_terms> coefficients;
     for (std::size_t c = 0; c < target_.steps.size(); ++c) {
       float residual = book_.pooled(
-          view, block, [&](std::uint32_t b) { return view.blocks.residual(b, c); }, neighbours_, 0);
+          view, block, [&](std::uint32_t b) { return plausible_residual(view, b, c); }, neighbours_,
+          0);
       if (!noisy_) residual *= evenness(samples);
       residual += metric_.uncertainty(samples, view.signal.variance(c));
       view.blocks.coefficients(block, c, coefficients);
