@@ -11,7 +11,7 @@
 namespace freqsynth::detail {
 
 /// A map of 8 frequencies of one axis to 8 others.
-class AxisMap {
+class FREQSYNTH_API AxisMap {
  public:
   /// Block `part` (of `factor` along the axis) to its share of the block of means of `factor`
   /// pixels.
