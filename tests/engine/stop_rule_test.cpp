@@ -36,7 +36,8 @@ TEST(StopRule, ThresholdLooksAtALatticeFirst) {
       const StopRule stop{.aliasing_threshold = 0.01, .least_samples = least};
       EXPECT_EQ(engine.run(dot_at(20.3, 33.9), stop).reason, StopReason::threshold);
       const std::vector<std::uint32_t> counts = counts_of(engine.image());
-      EXPECT_GE(*std::ranges::min_element(counts), std::max<std::size_t>(least, 1)) << wave;
+      EXPECT_GE(*std::min_element(counts.begin(), counts.end()), std::max<std::size_t>(least, 1))
+          << wave;
     }
   }
   EXPECT_EQ(StopRule{}.least_samples, 25u);

@@ -54,8 +54,8 @@ TEST_P(BadValue, RegionInsideABlockLeavesAllOtherBlocksAlone) {
     for (std::size_t x = 0; x < 5; ++x) {
       EXPECT_EQ(image.samples(x, y), 81u);
       if (x == 2 && y == 1) continue;
-      EXPECT_TRUE(std::ranges::equal(image.coefficients(x, y, 0), expected.coefficients(x, y, 0)))
-          << x << ", " << y;
+      const auto block = image.coefficients(x, y, 0), same = expected.coefficients(x, y, 0);
+      EXPECT_TRUE(std::equal(block.begin(), block.end(), same.begin())) << x << ", " << y;
     }
   }
 }

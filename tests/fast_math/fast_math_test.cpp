@@ -51,7 +51,7 @@ TEST(FastMath, BadSamplesAreCountedAndSurvived) {
     EXPECT_GT(given, 100u);
     EXPECT_EQ(engine.stats().bad_samples, given);
     const std::vector<float> pixels = reconstruct(engine.finished_image());
-    EXPECT_TRUE(std::ranges::all_of(pixels, finite));
+    EXPECT_TRUE(std::all_of(pixels.begin(), pixels.end(), finite));
     for (std::size_t i = 1; i < pixels.size(); i += 2) ASSERT_NEAR(pixels[i], 0.5f, 1e-3f) << i;
   }
 }

@@ -141,6 +141,9 @@ TEST(ExecutorFaults, AnExecutorThatNeverDoesAnythingIsNoEndlessLoop) {
 }
 
 TEST(ExecutorFaults, AThreadThatIsCancelledInTheSamplerLosesOneCallOnly) {
+#if !defined(__GLIBCXX__)
+  GTEST_SKIP() << "only libstdc++ tells a cancelled thread from an exception";
+#endif
   Synthesizer straight(settings_of(32, 32)), engine(settings_of(32, 32));
   straight.run(picture, at_samples(300));
   std::size_t calls = 0;

@@ -232,9 +232,10 @@ TEST(EncodePixels, IsTheEncodedPixelAtEveryPixel) {
       if (channels == 3) {
         expected = encoding.encode(std::array{pixels[i], pixels[i + 1], pixels[i + 2]});
       }
-      // Two transforms of numbers up to 255 in blocks of 64. Measured: 3 roundings of them.
+      // Two transforms of numbers up to 255 in blocks of 64. Measured: 3 roundings of them, and 4.1
+      // with the random numbers of libc++.
       for (std::size_t c = 0; c < channels; ++c) {
-        EXPECT_NEAR(signal[i + c], expected[c], 255 * 3.8 * oracle::float_rounding);
+        EXPECT_NEAR(signal[i + c], expected[c], 255 * 5.1 * oracle::float_rounding);
       }
     }
   }

@@ -11,7 +11,7 @@
 namespace freqsynth::detail {
 
 /// A map of 8 frequencies of one axis to 8 others.
-class AxisMap {
+class FREQSYNTH_API AxisMap {
  public:
   /// Block `part` (of `factor` along the axis) to its share of the block of means of `factor`
   /// pixels.
@@ -20,8 +20,11 @@ class AxisMap {
   /// A block to part `part` of the `factor` blocks in which each pixel is repeated `factor` times.
   static AxisMap enlarge(std::size_t part, std::size_t factor) { return {part, factor, true}; }
 
-  /// The coefficients of a block, in rows of frequencies [v][u], after both axes.
-  static AlignedBlock apply(const AxisMap& across, const AxisMap& down, const AlignedBlock& block);
+  /// Sets `out` to the coefficients of `block`, another one, after both axes. Both are in rows of
+  /// frequencies [v][u]. Not returned by value: gcc 12 without optimisation may put what is returned
+  /// where it is not aligned.
+  static void apply(const AxisMap& across, const AxisMap& down, const AlignedBlock& block,
+                    AlignedBlock& out);
 
  private:
   AxisMap(std::size_t part, std::size_t factor, bool enlarge);

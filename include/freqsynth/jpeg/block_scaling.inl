@@ -10,12 +10,10 @@
 
 namespace freqsynth::detail {
 
-FREQSYNTH_INLINE AlignedBlock AxisMap::apply(const AxisMap& across, const AxisMap& down,
-                                             const AlignedBlock& block) {
-  AlignedBlock out;
+FREQSYNTH_INLINE void AxisMap::apply(const AxisMap& across, const AxisMap& down,
+                                     const AlignedBlock& block, AlignedBlock& out) {
   evaluate_separable(block.data(), across.from_to_.data(), block_size, block_size,
                      down.to_from_.data(), block_size, out.data(), block_size);
-  return out;
 }
 
 FREQSYNTH_INLINE AxisMap::AxisMap(std::size_t part, std::size_t factor, bool enlarge) {

@@ -30,14 +30,16 @@ inline void dequantize_component(const QuantizedComponent& component,
     for (std::size_t x = 0; x < out.blocks_x(); ++x) {
       const std::int16_t* values =
           component.values.data() + ((y / down) * component.blocks_x + x / across) * max_terms;
-      AlignedBlock block;
+      AlignedBlock block, scaled;
       for (std::size_t i = 0; i < max_terms; ++i) {
         block[zigzag_to_row_major[i]] = static_cast<float>(values[i] * table[i]);
       }
       if (channel == 0) block[0] += level_shift;
-      if (across * down > 1) block = AxisMap::apply(maps_x[x % across], maps_y[y % down], block);
+      const bool same_size = across * down == 1;
+      if (!same_size) AxisMap::apply(maps_x[x % across], maps_y[y % down], block, scaled);
+      const AlignedBlock& result = same_size ? block : scaled;
       const auto coefficients = out.coefficients(x, y, channel);
-      for (std::size_t i = 0; i < max_terms; ++i) coefficients[i] = block[zigzag_to_row_major[i]];
+      for (std::size_t i = 0; i < max_terms; ++i) coefficients[i] = result[zigzag_to_row_major[i]];
     }
   }
 }

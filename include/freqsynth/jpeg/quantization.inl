@@ -145,10 +145,10 @@ FREQSYNTH_INLINE std::array<float, max_terms> halve_blocks(
   using detail::AxisMap;
   static const std::array<AxisMap, 2> shrink{AxisMap::shrink(0, 2), AxisMap::shrink(1, 2)};
   detail::AlignedBlock sum{};
-  detail::AlignedBlock rows;
+  detail::AlignedBlock rows, part;
   for (std::size_t i = 0; i < 4; ++i) {
     for (std::size_t k = 0; k < max_terms; ++k) rows[detail::zigzag_to_row_major[k]] = blocks[i][k];
-    const detail::AlignedBlock part = AxisMap::apply(shrink[i % 2], shrink[i / 2], rows);
+    AxisMap::apply(shrink[i % 2], shrink[i / 2], rows, part);
     for (std::size_t k = 0; k < max_terms; ++k) sum[k] += part[k];
   }
   std::array<float, max_terms> out;
