@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 
 namespace scenes {
 namespace {
@@ -37,6 +38,45 @@ double twice_triangle(const Point& p, const Point& q, double radius) {
   return (t0 > 0.0 ? sector(p, u) : 0.0) + cross(u, v) + (t1 < 1.0 ? sector(v, q) : 0.0);
 }
 
+// A convex polygon. A line adds at most one corner: two lines make six of a square.
+struct Polygon {
+  std::array<Point, 6> corners{};
+  std::size_t size = 0;
+
+  void add(const Point& p) { corners[size++] = p; }
+};
+
+// The part of a polygon on the side of a line through the origin that its normal points to
+// (Sutherland and Hodgman 1974).
+Polygon clip(const Polygon& polygon, const Point& normal) {
+  Polygon inside;
+  for (std::size_t i = 0; i < polygon.size; ++i) {
+    const Point& p = polygon.corners[i];
+    const Point& q = polygon.corners[(i + 1) % polygon.size];
+    const double from = dot(p, normal);
+    const double to = dot(q, normal);
+    if (from >= 0.0) inside.add(p);
+    if ((from > 0.0 && to < 0.0) || (from < 0.0 && to > 0.0)) {
+      const double t = from / (from - to);
+      inside.add({p.x + t * (q.x - p.x), p.y + t * (q.y - p.y)});
+    }
+  }
+  return inside;
+}
+
+// The area of the polygon's part within the disc about the origin.
+double area_in_disc(const Polygon& polygon, double radius) {
+  double twice = 0.0;
+  for (std::size_t i = 0; i < polygon.size; ++i) {
+    twice += twice_triangle(polygon.corners[i], polygon.corners[(i + 1) % polygon.size], radius);
+  }
+  return std::clamp(0.5 * twice, 0.0, 1.0);
+}
+
+Polygon pixel(double left, double top) {
+  return {{{{left, top}, {left + 1.0, top}, {left + 1.0, top + 1.0}, {left, top + 1.0}}}, 4};
+}
+
 }  // namespace
 
 double half_plane_area(double a, double b, double c) {
@@ -57,13 +97,30 @@ double half_plane_area(double a, double b, double c) {
 }
 
 double disc_area(double left, double top, double radius) {
-  const std::array<Point, 4> corners = {
-      {{left, top}, {left + 1.0, top}, {left + 1.0, top + 1.0}, {left, top + 1.0}}};
-  double twice = 0.0;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    twice += twice_triangle(corners[i], corners[(i + 1) % corners.size()], radius);
-  }
-  return std::clamp(0.5 * twice, 0.0, 1.0);
+  return area_in_disc(pixel(left, top), radius);
+}
+
+double left_area(double at_top, double at_bottom) {
+  // The integral of max(x, 0) over the line, which is straight from `from` to `to`.
+  const auto positive = [](double from, double to) {
+    const double low = std::min(from, to);
+    const double high = std::max(from, to);
+    if (high <= 0.0) return 0.0;
+    return low >= 0.0 ? 0.5 * (low + high) : 0.5 * high * (high / (high - low));
+  };
+  return std::clamp(positive(at_top, at_bottom) - positive(at_top - 1.0, at_bottom - 1.0), 0.0,
+                    1.0);
+}
+
+double sector_area(double left, double top, double radius, double begin, double end) {
+  const auto direction = [](double turns) {
+    const double angle = 2.0 * std::numbers::pi * turns;
+    return Point{std::cos(angle), std::sin(angle)};
+  };
+  const Point first = direction(begin);
+  const Point last = direction(end);
+  const Polygon half = clip(pixel(left, top), {-first.y, first.x});
+  return area_in_disc(clip(half, {last.y, -last.x}), radius);
 }
 
 }  // namespace scenes

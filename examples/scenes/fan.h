@@ -19,6 +19,7 @@ class Fan final : public Scene {
   Fan(int width, int height);
 
   void radiance(double x, double y, std::uint64_t id, std::span<float, 3> rgb) const override;
+  [[nodiscard]] bool pixel_average(long i, long j, std::span<float, 3> rgb) const override;
 
  private:
   double unit_per_pixel_x_;

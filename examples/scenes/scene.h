@@ -32,8 +32,8 @@ class Scene {
   [[nodiscard]] virtual bool noisy() const { return false; }
 
   /// Stores the mean radiance over the area of pixel (i, j) in `rgb` and returns true where it is
-  /// known in closed form, exact up to rounding. Otherwise returns false and leaves `rgb` as it is.
-  /// i is in [0, width), j in [0, height).
+  /// known in closed form, or by a quadrature with an error below 1e-8, and then rounded. Otherwise
+  /// returns false and leaves `rgb` as it is. i is in [0, width), j in [0, height).
   [[nodiscard]] virtual bool pixel_average(long i, long j, std::span<float, 3> rgb) const;
 };
 

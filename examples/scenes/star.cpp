@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "area.h"
+
 namespace scenes {
 namespace {
 
@@ -28,6 +30,18 @@ void Star::radiance(double x, double y, std::uint64_t /*id*/, std::span<float, 3
     value = spoke - std::floor(spoke) < 0.5 ? 0.0F : 1.0F;
   }
   std::fill(rgb.begin(), rgb.end(), value);
+}
+
+bool Star::pixel_average(long i, long j, std::span<float, 3> rgb) const {
+  const double left = static_cast<double>(i) - center_x_;
+  const double top = static_cast<double>(j) - center_y_;
+  const double radius = std::sqrt(square_radius_);
+  double black = 0.0;
+  for (double spoke = 0.0; spoke < kSpokes; spoke += 1.0) {
+    black += sector_area(left, top, radius, spoke / kSpokes, (spoke + 0.5) / kSpokes);
+  }
+  std::fill(rgb.begin(), rgb.end(), static_cast<float>(1.0 - black));
+  return true;
 }
 
 }  // namespace scenes

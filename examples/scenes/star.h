@@ -16,6 +16,7 @@ class Star final : public Scene {
   Star(int width, int height);
 
   void radiance(double x, double y, std::uint64_t id, std::span<float, 3> rgb) const override;
+  [[nodiscard]] bool pixel_average(long i, long j, std::span<float, 3> rgb) const override;
 
  private:
   double center_x_;

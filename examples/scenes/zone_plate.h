@@ -19,6 +19,7 @@ class ZonePlate final : public Scene {
   ZonePlate(int width, int height, double frequency);
 
   void radiance(double x, double y, std::uint64_t id, std::span<float, 3> rgb) const override;
+  [[nodiscard]] bool pixel_average(long i, long j, std::span<float, 3> rgb) const override;
 
  private:
   double phase_scale_;  // phase per squared pixel
