@@ -7,7 +7,7 @@ set(FREQSYNTH_LAYERS
   "basis/float_bits.h|what kind of number a value is, also under -ffast-math|"
   "basis/check.h|how arguments are refused|"
   "basis/aligned.h|memory that starts on a cache line|"
-  "basis/kernels.h|the vectorised inner loops|"
+  "basis/kernels.h|the vectorised inner loops, for several instruction sets|"
   "basis/dct.h|cosine terms at any point, zig-zag order, forward and inverse transform|2, eqs. 1, 2, 34"
   "basis/edge_spectrum.h|what terms are expected to hold before samples tell|"
   "basis/sample_sequence.h|the quad-tree order of samples, and which sample is whose partner across an edge|4.3.1"

@@ -72,6 +72,25 @@ write_header(left.h "#include \"freqsynth/part/right.inl\"")
 expect("left.h: may not include part/right.inl, which is not above it")
 
 start_tree()
+write_header(left_one.inl "#include \"freqsynth/low.h\"")
+write_header(left_two.inl "#include \"freqsynth/left_one.inl\"")
+write_header(left.inl "#include \"freqsynth/left_two.inl\"")
+expect("")
+
+start_tree()
+write_header(left_one.inl "#include \"freqsynth/part/right.h\"")
+expect("left_one.inl: may not include part/right.h, which is not above it")
+
+start_tree()
+write_header(left_one.inl)
+write_header(low.inl "#include \"freqsynth/left_one.inl\"")
+expect("low.inl: may not include left_one.inl, which is not above it")
+
+start_tree()
+write_header(stray_one.inl)
+expect("stray_one.inl: not in the layer table")
+
+start_tree()
 write_header(left.h "#include \"freqsynth/absent.h\"")
 expect("includes absent.h, which is not in the layer table")
 

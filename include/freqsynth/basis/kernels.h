@@ -1,10 +1,12 @@
 /// \file
-/// The hot kernels, compiled once per instruction set and chosen when the program starts. Every
-/// version adds in the same order and none fuses multiply and add, so all give the same bits.
+/// The hot kernels, compiled once per instruction set; which of them the processor can run is found
+/// out once, at run time. Every version adds in the same order and none fuses multiply and add, so
+/// all give the same bits.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "freqsynth/basis/config.h"
 
@@ -45,36 +47,66 @@ struct alignas(64) SampleRow {
 /// \param values    one finite value per channel; null to absorb the block's own prediction instead
 /// \param weights   per channel: its weight in the result
 /// \return the weighted sum over channels of the mean squared change of the block's pixels
-float absorb_sample(const SampleRow& row, float* states, float* sums, float* residuals,
-                    const float* values, const float* weights, std::size_t channels);
+using AbsorbSample = float(const SampleRow& row, float* states, float* sums, float* residuals,
+                           const float* values, const float* weights, std::size_t channels);
 
-/// Powell's rank-one update, eqs. 29 and 33, of row-major matrices with a row stride of 64 and rows
-/// aligned to 32 bytes. The leading terms x terms part of `inverse` is updated, and all 64 columns
-/// of the first 64 rows of `normal` when `normal_terms` is 64 (or the leading part of that size).
-/// Entries of `inverse` beyond `terms` must be zero. `a` holds normal_terms values.
-void rank_one_update(double* inverse, double* normal, const double* a, std::size_t terms,
-                     std::size_t normal_terms);
+/// Powell's rank-one update, eqs. 29 and 33, of row-major matrices with a row stride of 64, aligned
+/// to 64 bytes. The leading terms x terms part of `inverse` is updated, and the leading
+/// normal_terms x normal_terms part of `normal`. Entries of `inverse` beyond `terms` must be zero,
+/// and those of `normal` beyond `normal_terms` finite. `a` holds normal_terms values;
+/// 1 <= terms <= normal_terms <= 64.
+using RankOneUpdate = void(double* inverse, double* normal, const double* a, std::size_t terms,
+                           std::size_t normal_terms);
 
 /// M += scale x x^T for the leading terms x terms part of a row-major matrix with a row stride of
-/// 64, rows aligned to 32 bytes. x is aligned and padded with zeros to a multiple of 4 values.
-void add_outer_product(double* matrix, const double* x, double scale, std::size_t terms);
+/// 64, aligned to 32 bytes. x is aligned to 32 bytes and padded with zeros to a multiple of 4
+/// values.
+using AddOuterProduct = void(double* matrix, const double* x, double scale, std::size_t terms);
 
-/// out = M x for the leading terms x terms part of a row-major matrix with a row stride of 64, rows
-/// aligned to 32 bytes, entries beyond `terms` zero.
-void multiply(const double* matrix, const double* x, std::size_t terms, double* out);
+/// out = M x for the leading terms x terms part of a row-major matrix with a row stride of 64,
+/// aligned to 32 bytes, entries beyond `terms` zero. terms is 1..64.
+using Multiply = void(const double* matrix, const double* x, std::size_t terms, double* out);
 
 /// out(j) = (sums(j) - row j of `matrix` . amplitudes) * shares(j) for 64 rows of 64 floats.
 /// All arrays are aligned to 32 bytes.
-void residual_means(const float* matrix, const float* amplitudes, const float* sums,
-                    const float* shares, float* out);
+using ResidualMeans = void(const float* matrix, const float* amplitudes, const float* sums,
+                           const float* shares, float* out);
 
 /// Separable evaluation of a block: pixels(r, c) = sum_v wy(r, v) sum_u amplitudes(v, u) wx(u, c).
 /// \param amplitudes 8 x 8, row-major (v, u), aligned to 32 bytes
 /// \param wx    8 rows (u) of `wx_stride` floats, aligned to 32 bytes; columns is a multiple of 8
 /// \param wy    `rows` rows of 8 floats (v)
 /// \param out   rows x columns floats with a row stride of `out_stride`, aligned to 32 bytes
-void evaluate_separable(const float* amplitudes, const float* wx, std::size_t wx_stride,
-                        std::size_t columns, const float* wy, std::size_t rows, float* out,
-                        std::size_t out_stride);
+using EvaluateSeparable = void(const float* amplitudes, const float* wx, std::size_t wx_stride,
+                               std::size_t columns, const float* wy, std::size_t rows, float* out,
+                               std::size_t out_stride);
+
+/// One version of all kernels.
+struct Kernels {
+  const char* name;  ///< "plain", "avx2" or "avx512"
+  AbsorbSample* absorb_sample;
+  RankOneUpdate* rank_one_update;
+  AddOuterProduct* add_outer_product;
+  Multiply* multiply;
+  ResidualMeans* residual_means;
+  EvaluateSeparable* evaluate_separable;
+};
+
+/// The versions that this processor can run, from the plain one, which all can, to the best.
+[[nodiscard]] FREQSYNTH_API std::span<const Kernels* const> runnable_kernels();
+
+/// The best of them, found at the first call; the functions below are its.
+[[nodiscard]] FREQSYNTH_API const Kernels& chosen_kernels();
+
+FREQSYNTH_API AbsorbSample absorb_sample;
+FREQSYNTH_API RankOneUpdate rank_one_update;
+FREQSYNTH_API AddOuterProduct add_outer_product;
+FREQSYNTH_API Multiply multiply;
+FREQSYNTH_API ResidualMeans residual_means;
+FREQSYNTH_API EvaluateSeparable evaluate_separable;
 
 }  // namespace freqsynth::detail
+
+#if defined(FREQSYNTH_HEADER_ONLY)
+#include "freqsynth/basis/kernels.inl"
+#endif

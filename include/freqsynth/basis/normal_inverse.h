@@ -3,18 +3,18 @@
 /// rank-one update (eq. 33) and Frobenius bordering (eq. 37), in double, O(T^2) each.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <span>
 
+#include "freqsynth/basis/aligned.h"
 #include "freqsynth/basis/config.h"
 
 namespace freqsynth {
 
 /// A square matrix of up to 64 x 64, row-major, with a fixed row stride of 64 and aligned rows.
 /// Only the leading part that an operation names is meaningful; the rest is zero.
-struct alignas(64) TermMatrix {
-  std::array<double, max_terms * max_terms> values{};
+struct TermMatrix {
+  detail::AlignedArray<double, max_terms * max_terms> values{};
 
   [[nodiscard]] double* row(std::size_t i) { return values.data() + i * max_terms; }
   [[nodiscard]] const double* row(std::size_t i) const { return values.data() + i * max_terms; }
@@ -28,8 +28,8 @@ struct alignas(64) TermMatrix {
 /// \param normal   J of at least T terms; its leading a.size() x a.size() part is updated
 /// \param a        term values at the new sample's position, at least T of them
 /// \throws std::invalid_argument when not 1 <= terms <= a.size() <= 64.
-void rank_one_update(TermMatrix& inverse, TermMatrix& normal, std::span<const double> a,
-                     std::size_t terms);
+FREQSYNTH_API void rank_one_update(TermMatrix& inverse, TermMatrix& normal,
+                                   std::span<const double> a, std::size_t terms);
 
 /// Extends J^-1 by one row and column (eq. 37) for a new term.
 /// \param inverse  T x T on entry, (T + 1) x (T + 1) on return, T = b.size()
@@ -39,11 +39,11 @@ void rank_one_update(TermMatrix& inverse, TermMatrix& normal, std::span<const do
 /// \return Delta of eq. 37. When it is not positive (or NaN), the new term depends on the old ones
 ///         and the inverse is not changed.
 /// \throws std::invalid_argument when b.size() is not in 1..63 or step.size() differs from it.
-double border_inverse(TermMatrix& inverse, std::span<const double> b, double d,
-                      std::span<double> step);
+FREQSYNTH_API double border_inverse(TermMatrix& inverse, std::span<const double> b, double d,
+                                    std::span<double> step);
 
 /// J of all 64 terms, and the inverse of its leading T x T part (paper, 4.1.2 and 4.2).
-class NormalInverse {
+class FREQSYNTH_API NormalInverse {
  public:
   /// Starts with no sample and no term. The first sample brings in the first term.
   NormalInverse() = default;
@@ -61,9 +61,10 @@ class NormalInverse {
   void add_sample(std::span<const double, max_terms> a);
 
   /// Adds the next term (eq. 37) if the samples determine it.
-  /// \param step       T values, receives -J^-1 B; see border_inverse
+  /// \param step       T values, receives -J^-1 B if the term is added; see border_inverse
   /// \param tolerance  smallest share Delta / D of the new term that must be independent of the old
   /// \return Delta, or 0 when the term was not added: all 64 are in, or Delta <= tolerance D.
+  /// \throws std::invalid_argument when a term is to be added and step.size() is not T.
   double add_term(std::span<double> step, double tolerance = 1e-6);
 
  private:
@@ -74,3 +75,7 @@ class NormalInverse {
 };
 
 }  // namespace freqsynth
+
+#if defined(FREQSYNTH_HEADER_ONLY)
+#include "freqsynth/basis/normal_inverse.inl"
+#endif

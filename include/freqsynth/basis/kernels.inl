@@ -1,0 +1,185 @@
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <span>
+
+#include "freqsynth/basis/kernels.h"
+
+// No multiplication is fused with an addition, and no sum reordered, even where the host's flags
+// allow it: gcc by default fuses wherever the instruction set can, and obeys an attribute; clang
+// fuses within one expression only, and obeys a pragma. Only what -ffast-math and
+// -ffp-contract=fast let clang do is beyond reach; without the instruction, which AVX-512 always
+// has, it at least cannot fuse.
+#if defined(__clang__)
+#define FREQSYNTH_KERNEL_ROUNDING
+#define FREQSYNTH_KERNEL_BEGIN _Pragma("clang fp contract(off)")
+#else
+#define FREQSYNTH_KERNEL_ROUNDING __attribute__((optimize("no-fast-math", "fp-contract=off")))
+#define FREQSYNTH_KERNEL_BEGIN
+#endif
+
+// Windows aligns the stack to 16 bytes, to which gcc's code for AVX does not adapt.
+#if defined(__x86_64__) && !defined(_WIN32)
+#define FREQSYNTH_KERNELS_AVX2
+#if !(defined(__clang__) && defined(__FAST_MATH__))
+#define FREQSYNTH_KERNELS_AVX512
+#endif
+#endif
+
+#define FREQSYNTH_KERNEL inline FREQSYNTH_KERNEL_TARGET FREQSYNTH_KERNEL_ROUNDING
+#define FREQSYNTH_KERNEL_INLINE FREQSYNTH_KERNEL __attribute__((always_inline))
+
+#define FREQSYNTH_KERNEL_SET plain
+#define FREQSYNTH_KERNEL_BYTES 16
+#if defined(__x86_64__)
+#define FREQSYNTH_KERNEL_TARGET __attribute__((target("no-fma,no-fma4,no-avx512f")))
+#else
+#define FREQSYNTH_KERNEL_TARGET
+#endif
+#include "freqsynth/basis/kernels_body.inl"
+#undef FREQSYNTH_KERNEL_SET
+#undef FREQSYNTH_KERNEL_BYTES
+#undef FREQSYNTH_KERNEL_TARGET
+
+#if defined(FREQSYNTH_KERNELS_AVX2)
+#define FREQSYNTH_KERNEL_SET avx2
+#define FREQSYNTH_KERNEL_BYTES 32
+#define FREQSYNTH_KERNEL_TARGET __attribute__((target("avx2,no-fma,no-fma4,no-avx512f")))
+#include "freqsynth/basis/kernels_body.inl"
+#undef FREQSYNTH_KERNEL_SET
+#undef FREQSYNTH_KERNEL_BYTES
+#undef FREQSYNTH_KERNEL_TARGET
+#endif
+
+#if defined(FREQSYNTH_KERNELS_AVX512)
+#define FREQSYNTH_KERNEL_SET avx512
+#define FREQSYNTH_KERNEL_BYTES 64
+#define FREQSYNTH_KERNEL_TARGET __attribute__((target("avx512f,avx512dq,avx512vl")))
+#include "freqsynth/basis/kernels_pack.inl"
+#include "freqsynth/basis/kernels_update.inl"
+#undef FREQSYNTH_KERNEL_SET
+#undef FREQSYNTH_KERNEL_BYTES
+#undef FREQSYNTH_KERNEL_TARGET
+#endif
+
+#undef FREQSYNTH_KERNEL
+#undef FREQSYNTH_KERNEL_INLINE
+#undef FREQSYNTH_KERNEL_BEGIN
+#undef FREQSYNTH_KERNEL_ROUNDING
+
+namespace freqsynth::detail {
+
+inline constexpr Kernels plain_kernels = {
+    "plain",          &plain::absorb_sample,  &plain::rank_one_update,    &plain::add_outer_product,
+    &plain::multiply, &plain::residual_means, &plain::evaluate_separable,
+};
+#if defined(FREQSYNTH_KERNELS_AVX2)
+inline constexpr Kernels avx2_kernels = {
+    "avx2",          &avx2::absorb_sample,  &avx2::rank_one_update,    &avx2::add_outer_product,
+    &avx2::multiply, &avx2::residual_means, &avx2::evaluate_separable,
+};
+#endif
+#if defined(FREQSYNTH_KERNELS_AVX512)
+// The others are no faster: they wait for sums, or have too few terms.
+inline constexpr Kernels avx512_kernels = [] {
+  Kernels kernels = avx2_kernels;
+  kernels.name = "avx512";
+  kernels.rank_one_update = &avx512::rank_one_update;
+  return kernels;
+}();
+#endif
+
+inline constexpr const Kernels* all_kernels[] = {
+    &plain_kernels,
+#if defined(FREQSYNTH_KERNELS_AVX2)
+    &avx2_kernels,
+#endif
+#if defined(FREQSYNTH_KERNELS_AVX512)
+    &avx512_kernels,
+#endif
+};
+
+FREQSYNTH_INLINE std::span<const Kernels* const> runnable_kernels() {
+  std::size_t count = 1;
+#if defined(FREQSYNTH_KERNELS_AVX2)
+  __builtin_cpu_init();  // constructors may come here before its own
+  if (__builtin_cpu_supports("avx2")) ++count;
+#endif
+#if defined(FREQSYNTH_KERNELS_AVX512)
+  if (count == 2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+      __builtin_cpu_supports("avx512vl")) {
+    ++count;
+  }
+#endif
+  return std::span(all_kernels).first(count);
+}
+
+/// Makes the choice when it is first called, and calls.
+template <auto kernel>
+struct Undecided;
+template <class Result, class... Arguments, Result (*Kernels::*kernel)(Arguments...)>
+struct Undecided<kernel> {
+  static Result call(Arguments... arguments) { return (chosen_kernels().*kernel)(arguments...); }
+};
+
+/// Stands for the choice until the first call of a kernel makes it: a constant, so that no order of
+/// initialisation can be wrong. Threads that choose at the same time choose the same.
+inline constexpr Kernels undecided_kernels = {
+    "undecided",
+    &Undecided<&Kernels::absorb_sample>::call,
+    &Undecided<&Kernels::rank_one_update>::call,
+    &Undecided<&Kernels::add_outer_product>::call,
+    &Undecided<&Kernels::multiply>::call,
+    &Undecided<&Kernels::residual_means>::call,
+    &Undecided<&Kernels::evaluate_separable>::call,
+};
+
+inline constinit std::atomic<const Kernels*> chosen{&undecided_kernels};
+
+FREQSYNTH_INLINE const Kernels& chosen_kernels() {
+  const Kernels* kernels = chosen.load(std::memory_order_relaxed);
+  if (kernels == &undecided_kernels) [[unlikely]] {
+    kernels = runnable_kernels().back();
+    chosen.store(kernels, std::memory_order_relaxed);
+  }
+  return *kernels;
+}
+
+/// The chosen ones, or those that choose them.
+inline const Kernels& kernels() { return *chosen.load(std::memory_order_relaxed); }
+
+FREQSYNTH_INLINE float absorb_sample(const SampleRow& row, float* states, float* sums,
+                                     float* residuals, const float* values, const float* weights,
+                                     std::size_t channels) {
+  return kernels().absorb_sample(row, states, sums, residuals, values, weights, channels);
+}
+
+FREQSYNTH_INLINE void rank_one_update(double* inverse, double* normal, const double* a,
+                                      std::size_t terms, std::size_t normal_terms) {
+  kernels().rank_one_update(inverse, normal, a, terms, normal_terms);
+}
+
+FREQSYNTH_INLINE void add_outer_product(double* matrix, const double* x, double scale,
+                                        std::size_t terms) {
+  kernels().add_outer_product(matrix, x, scale, terms);
+}
+
+FREQSYNTH_INLINE void multiply(const double* matrix, const double* x, std::size_t terms,
+                               double* out) {
+  kernels().multiply(matrix, x, terms, out);
+}
+
+FREQSYNTH_INLINE void residual_means(const float* matrix, const float* amplitudes,
+                                     const float* sums, const float* shares, float* out) {
+  kernels().residual_means(matrix, amplitudes, sums, shares, out);
+}
+
+FREQSYNTH_INLINE void evaluate_separable(const float* amplitudes, const float* wx,
+                                         std::size_t wx_stride, std::size_t columns,
+                                         const float* wy, std::size_t rows, float* out,
+                                         std::size_t out_stride) {
+  kernels().evaluate_separable(amplitudes, wx, wx_stride, columns, wy, rows, out, out_stride);
+}
+
+}  // namespace freqsynth::detail
