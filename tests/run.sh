@@ -31,8 +31,8 @@ launcher=()
 case $preset in
   tests)
     # clang also for the consumers among the tests.
-    packages+=(clang clang-format libbenchmark-dev libeigen3-dev libfftw3-dev libopenblas-dev
-      libjpeg-turbo-progs libopenimageio-dev pkg-config)
+    packages+=(clang clang-format doxygen libbenchmark-dev libeigen3-dev libfftw3-dev
+      libopenblas-dev libjpeg-turbo-progs libopenimageio-dev pkg-config)
     # Otherwise the test that each header compiles alone would build them, one by one.
     targets+=(all_verify_interface_header_sets)
     ;;

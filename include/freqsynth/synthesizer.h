@@ -27,6 +27,7 @@
 
 namespace freqsynth {
 
+/// What is to be synthesised, and how.
 struct SynthesisSettings {
   std::size_t width = 0;     ///< pixels; 0 gives an image without blocks
   std::size_t height = 0;    ///< pixels
@@ -37,8 +38,8 @@ struct SynthesisSettings {
   /// edges falls faster.
   bool noisy = false;
 
-  InverseListSettings list = {};
-  PrioritySettings priority = {};
+  InverseListSettings list = {};   ///< the order of samples and terms
+  PrioritySettings priority = {};  ///< which block is next
   /// Blocks sampled between two choices; 1 is the paper's strict order, 0 chooses 1/32 of all
   /// blocks.
   std::size_t wave = 0;
@@ -60,6 +61,7 @@ struct SynthesisSettings {
 
 /// A progress callback that never cancels.
 struct KeepGoing {
+  /// Go on.
   bool operator()(double) const { return true; }
 };
 
@@ -124,11 +126,14 @@ class FREQSYNTH_API Synthesizer {
   /// \param settings  without it FinishSettings{}, or FinishSettings::noisy() for a noisy sampler
   /// \throws std::invalid_argument when a setting is out of range.
   [[nodiscard]] FrequencyImage finished_image(const FinishSettings& settings) const;
+  /// The same with the settings for this sampler, noisy or not.
   [[nodiscard]] FrequencyImage finished_image() const;
 
+  /// Values per sample.
   [[nodiscard]] std::size_t channels() const { return settings().channels; }
   /// The settings, with the list that is used as `shared_list`.
   [[nodiscard]] const SynthesisSettings& settings() const;
+  /// Counters since the engine's creation.
   [[nodiscard]] SynthesisStats stats() const;
   /// The first bad samples, at most 1000; stats() counts all.
   [[nodiscard]] std::vector<BadSample> bad_samples() const;

@@ -11,19 +11,25 @@
 #include <cassert>
 #include <cstddef>
 
+/// \{
+/// The version's three numbers, and the version as text.
 #define FREQSYNTH_VERSION_MAJOR 0
 #define FREQSYNTH_VERSION_MINOR 1
 #define FREQSYNTH_VERSION_PATCH 0
 #define FREQSYNTH_VERSION "0.1.0"
+/// \}
 
 /// Checks an invariant of the library itself. Callers' mistakes throw instead.
 #ifndef FREQSYNTH_ASSERT
 #define FREQSYNTH_ASSERT(condition) assert(condition)
 #endif
 
-/// FREQSYNTH_INLINE stands before definitions in x.inl; FREQSYNTH_API before what a shared library
-/// shows to the world: with FREQSYNTH_SHARED, which the target of a shared library sets for its
-/// users. A static library hides all of it, so that a plug-in made with it shows nothing of it.
+/// \def FREQSYNTH_INLINE
+/// Stands before definitions in x.inl.
+/// \def FREQSYNTH_API
+/// Stands before what a shared library shows to the world: with FREQSYNTH_SHARED, which the target
+/// of a shared library sets for its users. A static library hides all of it, so that a plug-in made
+/// with it shows nothing of it.
 #if defined(FREQSYNTH_HEADER_ONLY)
 #define FREQSYNTH_INLINE inline
 #else

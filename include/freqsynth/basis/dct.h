@@ -17,8 +17,8 @@ namespace freqsynth {
 
 /// Horizontal frequency u and vertical frequency v of a term, each 0..7 half cycles per block.
 struct Frequency {
-  std::uint8_t u = 0;
-  std::uint8_t v = 0;
+  std::uint8_t u = 0;  ///< horizontal
+  std::uint8_t v = 0;  ///< vertical
 };
 
 /// Frequency of zig-zag term `term` (0..63), the order of figure 6: (0,0), (1,0), (0,1), (0,2), ...

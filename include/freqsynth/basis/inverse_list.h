@@ -35,6 +35,7 @@ class FREQSYNTH_API InverseList {
   InverseList(const InverseList&) = delete;
   InverseList& operator=(const InverseList&) = delete;
 
+  /// What the list was made from.
   [[nodiscard]] const InverseListSettings& settings() const { return settings_; }
   /// Number of entries built so far.
   [[nodiscard]] std::size_t size() const { return size_.load(std::memory_order_acquire); }

@@ -9,6 +9,7 @@
 
 namespace freqsynth {
 
+/// What an inverse list depends on.
 struct InverseListSettings {
   /// Samples per added term (paper, 4.2.1: two to three). At least 1; at low rates a term waits
   /// until the samples determine it.

@@ -14,11 +14,16 @@ namespace freqsynth {
 /// A square matrix of up to 64 x 64, row-major, with a fixed row stride of 64 and aligned rows.
 /// Only the leading part that an operation names is meaningful; the rest is zero.
 struct TermMatrix {
+  /// All 64 rows.
   detail::AlignedArray<double, max_terms * max_terms> values{};
 
+  /// Row i, 64 values.
   [[nodiscard]] double* row(std::size_t i) { return values.data() + i * max_terms; }
+  /// Row i, 64 values.
   [[nodiscard]] const double* row(std::size_t i) const { return values.data() + i * max_terms; }
+  /// The value in row i and column j.
   double& operator()(std::size_t i, std::size_t j) { return values[i * max_terms + j]; }
+  /// The value in row i and column j.
   double operator()(std::size_t i, std::size_t j) const { return values[i * max_terms + j]; }
 };
 

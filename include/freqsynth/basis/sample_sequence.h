@@ -23,7 +23,7 @@ enum class BlockSide : std::uint8_t { interior, corner, left, right, top, bottom
 struct SequencePosition {
   double s = 0;  ///< horizontal place in the unit block, 0 = left border, 1 = right border
   double t = 0;  ///< vertical place in the unit block, 0 = top border, 1 = bottom border
-  BlockSide side = BlockSide::interior;
+  BlockSide side = BlockSide::interior;  ///< where on the block it lies
   /// How many earlier positions lie on the same side. Partners on opposite sides have the same
   /// rank, so that "the k-th point of an edge" means the same to both blocks. For corners: 0..3 in
   /// the order (0,0) (1,1) (1,0) (0,1).
@@ -38,6 +38,7 @@ struct SequencePosition {
 /// The sequence itself: the same for the same seed, grown on demand. Not thread-safe while growing.
 class FREQSYNTH_API SampleSequence {
  public:
+  /// \param seed  of the random choices
   explicit SampleSequence(std::uint64_t seed = 0) : seed_(seed) {}
 
   /// Position `index`; grows the sequence as far as needed (by whole levels, amortised O(1)). The
@@ -48,6 +49,7 @@ class FREQSYNTH_API SampleSequence {
   /// Number of positions known so far.
   [[nodiscard]] std::size_t size() const { return positions_.size(); }
 
+  /// Seed of the random choices.
   [[nodiscard]] std::uint64_t seed() const { return seed_; }
 
   /// Index (0..3) of the corner at s = right, t = bottom.

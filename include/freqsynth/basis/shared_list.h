@@ -19,9 +19,12 @@ class FREQSYNTH_API SharedInverseList {
   SharedInverseList() = default;
   /// A new list. \throws std::invalid_argument like InverseList.
   explicit SharedInverseList(const InverseListSettings& settings);
+  /// Another reference to the same list.
   SharedInverseList(const SharedInverseList& other) noexcept;
+  /// The reference moves; `other` refers to none then.
   SharedInverseList(SharedInverseList&& other) noexcept
       : list_(std::exchange(other.list_, nullptr)) {}
+  /// Refers to the list of `other` from now on.
   SharedInverseList& operator=(SharedInverseList other) noexcept {
     std::swap(list_, other.list_);
     return *this;
@@ -32,6 +35,7 @@ class FREQSYNTH_API SharedInverseList {
   explicit operator bool() const { return list_ != nullptr; }
   /// The list; there is one.
   const InverseList& operator*() const;
+  /// Members of the list; there is one.
   const InverseList* operator->() const { return &**this; }
 
   /// Whether both refer to the same list, or to none.

@@ -13,8 +13,10 @@ namespace freqsynth {
 /// The grid of blocks, numbered row by row. The last ones of an image whose size is no multiple of
 /// 8 reach beyond it.
 struct BlockGrid {
-  std::size_t blocks_x = 0, blocks_y = 0;
-  std::size_t width = 0, height = 0;  ///< pixels
+  std::size_t blocks_x = 0;  ///< in a row
+  std::size_t blocks_y = 0;  ///< in a column
+  std::size_t width = 0;     ///< pixels
+  std::size_t height = 0;    ///< pixels
 
   /// The grid of an image.
   /// \throws std::invalid_argument naming the sizes when channels is 0, there would be 2^32 - 1
@@ -23,7 +25,9 @@ struct BlockGrid {
 
   /// Number of blocks.
   [[nodiscard]] std::size_t size() const { return blocks_x * blocks_y; }
+  /// Column of a block, from the left.
   [[nodiscard]] std::size_t column(std::size_t block) const { return block % blocks_x; }
+  /// Row of a block, from the top.
   [[nodiscard]] std::size_t row(std::size_t block) const { return block / blocks_x; }
 
   /// Share of the pixels of a block that the image shows, in (0, 1].
@@ -31,7 +35,8 @@ struct BlockGrid {
 
   /// A point of the image, in pixels.
   struct Point {
-    double x = 0, y = 0;
+    double x = 0;  ///< continuous pixels to the right
+    double y = 0;  ///< continuous pixels downwards
   };
   /// Where a position of the sequence lies for a block. What would lie beyond the image is
   /// reflected back into it.

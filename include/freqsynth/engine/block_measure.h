@@ -21,9 +21,9 @@ namespace freqsynth {
 /// What a measure may look at.
 template <Refiner R>
 struct BlockView {
-  const BlockGrid& grid;
-  const BlockStore<R>& blocks;
-  const SignalStatistics& signal;
+  const BlockGrid& grid;           ///< where blocks lie
+  const BlockStore<R>& blocks;     ///< what is known of each
+  const SignalStatistics& signal;  ///< the scale of the signal
 };
 
 /// A measure of blocks that R refines. It keeps what it needs to know of each block.
@@ -63,9 +63,11 @@ template <Refiner R>
 /// The paper's measure: from what the last samples have changed.
 class ChangeMeasure {
  public:
+  /// \param most_samples  of a block
   ChangeMeasure(const PrioritySettings& settings, std::size_t blocks, std::size_t most_samples)
       : metric_(settings, most_samples), variations_(blocks) {}
 
+  /// See BlockMeasure.
   template <Refiner R>
   void absorbed(const BlockView<R>& view, std::uint32_t block, float change) {
     // A plausible change is about that of a fit of T terms to n values in the signal's range.
@@ -79,13 +81,16 @@ class ChangeMeasure {
     variations_[block] = metric_.variation(before, std::min(change, most));
   }
 
+  /// See BlockMeasure.
   template <Refiner R>
   [[nodiscard]] float priority(const BlockView<R>& view, std::uint32_t block, float factor) const {
     return factor *
            metric_.priority(variations_[block], view.blocks.samples(block), view.signal.variance());
   }
 
+  /// See BlockMeasure.
   [[nodiscard]] static bool has_news(std::uint32_t) { return false; }
+  /// See BlockMeasure.
   [[nodiscard]] static bool cares(float) { return false; }
 
  private:
@@ -96,6 +101,7 @@ class ChangeMeasure {
 /// The plausible residuals of all blocks, and what blocks know of those beside them.
 class ResidualBook {
  public:
+  /// All residuals are 0.
   explicit ResidualBook(std::size_t blocks) : residuals_(blocks), told_(blocks) {}
 
   /// A block has taken in a sample.
@@ -154,17 +160,20 @@ class ResidualBook {
 /// PriorityMeasure::residual.
 class ResidualMeasure {
  public:
+  /// \param most_samples  of a block
   ResidualMeasure(const PrioritySettings& settings, std::size_t blocks, std::size_t most_samples)
       : metric_(settings, most_samples),
         neighbours_(static_cast<float>(settings.neighbours)),
         image_(static_cast<float>(settings.image)),
         book_(blocks) {}
 
+  /// See BlockMeasure.
   template <Refiner R>
   void absorbed(const BlockView<R>& view, std::uint32_t block, float) {
     book_.absorbed(view, block);
   }
 
+  /// See BlockMeasure.
   template <Refiner R>
   [[nodiscard]] float priority(const BlockView<R>& view, std::uint32_t block, float factor) const {
     const std::uint32_t samples = view.blocks.samples(block);
@@ -176,7 +185,9 @@ class ResidualMeasure {
                                             view.signal.variance());
   }
 
+  /// See BlockMeasure.
   [[nodiscard]] bool has_news(std::uint32_t block) { return book_.has_news(block); }
+  /// See BlockMeasure.
   [[nodiscard]] static bool cares(float) { return true; }
 
  private:

@@ -23,7 +23,9 @@ class BlockQueue {
   /// `blocks` blocks, all absent.
   explicit BlockQueue(std::size_t blocks = 0);
 
+  /// Number of blocks, absent ones included.
   [[nodiscard]] std::size_t size() const { return blocks_; }
+  /// Priority of a block; `absent` when it is out.
   [[nodiscard]] float priority(std::size_t block) const { return levels_.front()[block]; }
   /// Highest priority; `absent` when no block is in the queue.
   [[nodiscard]] float top_priority() const { return levels_.back().front(); }

@@ -15,8 +15,10 @@ namespace freqsynth {
 /// by the constructor.
 class BlockSet {
  public:
+  /// The empty set of blocks 0 .. blocks - 1.
   explicit BlockSet(std::size_t blocks) : member_(blocks) { order_.reserve(blocks); }
 
+  /// Whether a block is in the set.
   [[nodiscard]] bool contains(std::size_t block) const { return member_[block] != 0; }
   /// Adds a block, unless it is in the set.
   void add(std::uint32_t block) {
@@ -24,7 +26,9 @@ class BlockSet {
     member_[block] = 1;
     order_.push_back(block);
   }
+  /// The blocks of the set, in the order in which they were added.
   [[nodiscard]] std::span<const std::uint32_t> members() const { return order_; }
+  /// Empties the set, at a cost in proportion to its members.
   void clear() {
     for (const std::uint32_t block : order_) member_[block] = 0;
     order_.clear();

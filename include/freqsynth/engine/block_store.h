@@ -21,12 +21,15 @@ class BlockStore {
   /// \param most_samples  samples that a block may have, at least 1
   BlockStore(R refiner, std::size_t blocks, std::size_t most_samples);
 
+  /// The refiner of all blocks.
   [[nodiscard]] const R& refiner() const { return refiner_; }
+  /// Number of blocks.
   [[nodiscard]] std::size_t size() const { return counts_.size(); }
   /// Samples that a block has had. Its next one has this index in the sequence.
   [[nodiscard]] std::uint32_t samples(std::size_t block) const { return counts_[block]; }
   /// Whether a block may not have another sample.
   [[nodiscard]] bool full(std::size_t block) const { return counts_[block] >= most_samples_; }
+  /// Samples that a block may have.
   [[nodiscard]] std::size_t most_samples() const { return most_samples_; }
   /// Number of blocks without a sample.
   [[nodiscard]] std::size_t untouched() const { return untouched_; }
@@ -41,16 +44,21 @@ class BlockStore {
   }
 
   // What the refiner says of a block; see the concept.
+  /// See Refiner.
   [[nodiscard]] float freedom(std::size_t block) const { return refiner_.freedom(counts_[block]); }
+  /// See Refiner.
   [[nodiscard]] float residual(std::size_t block) const {
     return refiner_.residual(state(block), counts_[block]);
   }
+  /// See Refiner.
   [[nodiscard]] float residual(std::size_t block, std::size_t channel) const {
     return refiner_.residual(state(block), counts_[block], channel);
   }
+  /// See Refiner.
   void coefficients(std::size_t block, std::size_t channel, std::span<float, max_terms> out) const {
     refiner_.coefficients(state(block), counts_[block], channel, out);
   }
+  /// See Refiner.
   [[nodiscard]] BlockFit fit(std::size_t block, std::size_t channel) const {
     return refiner_.fit(state(block), counts_[block], channel);
   }

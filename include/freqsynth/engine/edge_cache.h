@@ -20,6 +20,7 @@ namespace freqsynth {
 /// corner of the grid holds one value, which stays for all four blocks.
 class EdgeCache {
  public:
+  /// Nothing is known yet.
   EdgeCache(const BlockGrid& grid, std::size_t channels);
 
   /// Makes room, so that the next `more` calls of put() cannot fail.

@@ -61,7 +61,9 @@ class Engine {
   [[nodiscard]] double progress() const;
   /// Most positions that request() hands out before values have to come back.
   [[nodiscard]] std::size_t wave_size() const { return wave_size_; }
+  /// Counters since the engine's creation.
   [[nodiscard]] SynthesisStats stats() const;
+  /// The first bad samples, at most 1000.
   [[nodiscard]] std::vector<BadSample> bad_samples() const;
 
   /// Calls read(grid, blocks) with the blocks after the last complete wave, which stay as they are

@@ -15,10 +15,12 @@ namespace freqsynth {
 /// std::function.
 class TaskRef {
  public:
+  /// Refers to `function`, which must live as long.
   template <class F>
   requires std::invocable<const F&, std::size_t>
   explicit TaskRef(const F& function) : object_(&function), call_(&call<F>) {}
 
+  /// Calls it.
   void operator()(std::size_t index) const { call_(object_, index); }
 
  private:
@@ -42,9 +44,11 @@ concept Executor = requires(E& executor, std::size_t count, TaskRef task) {
 
 /// Runs everything on the calling thread.
 struct SerialExecutor {
+  /// See Executor.
   static void execute(std::size_t count, TaskRef task) {
     for (std::size_t i = 0; i < count; ++i) task(i);
   }
+  /// See Executor.
   static constexpr std::size_t concurrency() { return 1; }
 };
 

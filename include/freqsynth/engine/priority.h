@@ -36,6 +36,7 @@ struct PrioritySettings {
   double uncertainty = 1.0;
   /// r, decay of the uncertainty per sample, in [0, 1).
   double decay = 0.7165;
+  /// Which of the two formulas it is.
   PriorityMeasure measure = PriorityMeasure::residual;
   /// How many samples of the block's own the mean residuals of the blocks beside it count for, in
   /// 0..1e6.

@@ -44,6 +44,7 @@ class UsualRange {
 /// A single stray value (a firefly of a path tracer) changes neither.
 class SignalStatistics {
  public:
+  /// Nothing is known yet.
   explicit SignalStatistics(std::size_t channels)
       : sums_(channels), corner_ranges_(channels), ranges_(channels), variances_(channels) {}
 
@@ -57,13 +58,15 @@ class SignalStatistics {
 
   /// Variance of the signal, mean over the channels; 0 until it is settled.
   [[nodiscard]] float variance() const { return variance_; }
+  /// The same of one channel.
   [[nodiscard]] float variance(std::size_t channel) const { return variances_[channel]; }
   /// Variances of residuals below this one are float's rounding, not the signal's.
   [[nodiscard]] float rounding() const { return rounding_; }
 
-  /// Largest variance that values in the signal's range can have (Popoviciu), stray ones aside: of
-  /// one channel, and weighted over the channels. Without limit until the variances are settled.
+  /// Largest variance that values of a channel can have in the signal's range (Popoviciu), stray
+  /// ones aside. Without limit until the variances are settled.
   [[nodiscard]] float most_variance(std::size_t channel) const;
+  /// The same, weighted over the channels.
   [[nodiscard]] float most_variance(std::span<const float> weights) const;
 
  private:

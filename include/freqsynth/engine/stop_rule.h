@@ -33,6 +33,7 @@ struct StopRule {
                                                          std::size_t height) const;
 };
 
+/// Why no more positions are handed out.
 enum class StopReason {
   samples,    ///< the number of samples is reached
   threshold,  ///< every block is below the aliasing threshold, or meets the quantization target
@@ -53,13 +54,14 @@ struct SynthesisStats {
 
 /// Where a bad sample was.
 struct BadSample {
-  double x = 0, y = 0;
-  std::uint64_t id = 0;
+  double x = 0;          ///< continuous pixels to the right
+  double y = 0;          ///< continuous pixels downwards
+  std::uint64_t id = 0;  ///< that of its Request
 };
 
 /// What run() did.
 struct RunReport {
-  StopReason reason = StopReason::samples;
+  StopReason reason = StopReason::samples;  ///< why it came back
   double sampler_seconds = 0;  ///< wall-clock time with the sampler and its executor at work
   double core_seconds = 0;     ///< the rest: choosing, refining
 };

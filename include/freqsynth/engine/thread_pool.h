@@ -31,6 +31,7 @@ class FREQSYNTH_API ThreadPool {
   ///
   /// When tasks throw, the others still run, and then the first exception goes on to the caller.
   void execute(std::size_t count, TaskRef task);
+  /// Threads that work together, the caller's included.
   [[nodiscard]] std::size_t concurrency() const;
 
  private:

@@ -20,10 +20,11 @@ class Wave {
  public:
   /// The position that a slot asks for: the next one of a block.
   struct Slot {
-    std::uint32_t block = 0;
+    std::uint32_t block = 0;  ///< that asks
     std::uint32_t index = 0;  ///< in the block's sequence
   };
 
+  /// Empty, and without room.
   explicit Wave(std::size_t channels) : channels_(channels) {}
 
   /// Makes room for `most` slots.
@@ -31,8 +32,11 @@ class Wave {
   /// Adds a slot, for which there is room.
   void add(const Slot& slot);
 
+  /// Number of slots.
   [[nodiscard]] std::size_t size() const { return slots_.size(); }
+  /// Whether there is no slot, and so no wave.
   [[nodiscard]] bool empty() const { return slots_.empty(); }
+  /// What slot number `slot` asks for.
   [[nodiscard]] const Slot& slot(std::size_t slot) const { return slots_[slot]; }
 
   /// Whether a slot waits to be handed out.
@@ -40,19 +44,23 @@ class Wave {
   /// Hands out a slot that waits, which is owed from then on; those that came back go before new
   /// ones.
   std::uint32_t hand_out();
+  /// Whether a slot exists, was handed out, and is neither claimed nor delivered.
   [[nodiscard]] bool owed(std::size_t slot) const {
     return slot < slots_.size() && states_[slot] == State::owed;
   }
   // The host answers in two steps, so that an answer is taken as a whole or not at all: claim all
   // slots of it, which makes a second mention of a slot a fault; then deliver or recall each, or
   // let go of them.
+  /// Claims a slot that is owed.
   void claim(std::uint32_t slot);
+  /// A claimed slot is owed again.
   void let_go(std::uint32_t slot) { states_[slot] = State::owed; }
   /// Stores the values of a claimed slot.
   void deliver(std::uint32_t slot, const float* values);
   /// Lets a claimed slot wait again.
   void recall(std::uint32_t slot);
 
+  /// Number of slots whose values are there.
   [[nodiscard]] std::size_t delivered() const { return delivered_; }
   /// Whether all values are there.
   [[nodiscard]] bool complete() const { return !empty() && delivered_ == slots_.size(); }
@@ -61,6 +69,7 @@ class Wave {
     return values_.data() + slot * channels_;
   }
 
+  /// Ends the wave; its memory stays.
   void clear();
 
  private:

@@ -12,8 +12,9 @@
 
 namespace freqsynth {
 
+/// The filter's two parameters, and whether there is one.
 struct ButterworthSettings {
-  bool enabled = true;
+  bool enabled = true;  ///< false: nothing is filtered
   double cutoff = 0.8;  ///< c in d0 = c sqrt(n): half cycles per block; finite and > 0
   double order = 2;     ///< m, finite and > 0
 

@@ -32,17 +32,27 @@ class FrequencyImage {
   FREQSYNTH_API FrequencyImage(std::size_t width, std::size_t height, std::size_t channels,
                                CoefficientMeaning meaning = CoefficientMeaning::point_function);
 
+  /// A copy.
   FrequencyImage(const FrequencyImage&) = default;
+  /// A copy.
   FrequencyImage& operator=(const FrequencyImage&) = default;
+  /// `other` is empty then.
   FREQSYNTH_API FrequencyImage(FrequencyImage&& other) noexcept;
+  /// `other` is empty then.
   FREQSYNTH_API FrequencyImage& operator=(FrequencyImage&& other) noexcept;
   ~FrequencyImage() = default;
 
+  /// Pixels in a row.
   [[nodiscard]] std::size_t width() const { return size_.width; }
+  /// Pixels in a column.
   [[nodiscard]] std::size_t height() const { return size_.height; }
+  /// Values per pixel.
   [[nodiscard]] std::size_t channels() const { return size_.channels; }
+  /// Blocks in a row: width / 8, rounded up.
   [[nodiscard]] std::size_t blocks_x() const { return size_.blocks_x; }
+  /// Blocks in a column: height / 8, rounded up.
   [[nodiscard]] std::size_t blocks_y() const { return size_.blocks_y; }
+  /// What the coefficients stand for.
   [[nodiscard]] CoefficientMeaning meaning() const { return meaning_; }
 
   /// The 64 coefficients F (eqs. 1 and 2) of a channel of a block, in zig-zag order.
@@ -51,6 +61,7 @@ class FrequencyImage {
     const std::size_t first = first_coefficient(block_x, block_y, channel);
     return std::span<float, max_terms>(coefficients_.data() + first, max_terms);
   }
+  /// The same, to be read only.
   [[nodiscard]] std::span<const float, max_terms> coefficients(std::size_t block_x,
                                                                std::size_t block_y,
                                                                std::size_t channel) const {
@@ -62,6 +73,7 @@ class FrequencyImage {
   [[nodiscard]] std::uint32_t& samples(std::size_t block_x, std::size_t block_y) {
     return samples_[block(block_x, block_y)];
   }
+  /// The same, to be read only.
   [[nodiscard]] std::uint32_t samples(std::size_t block_x, std::size_t block_y) const {
     return samples_[block(block_x, block_y)];
   }

@@ -24,8 +24,9 @@
 
 namespace freqsynth {
 
+/// How pixels are made of a fit and its residuals.
 struct FinishSettings {
-  ButterworthSettings butterworth = {};
+  ButterworthSettings butterworth = {};  ///< the filter of the fit
   /// false: the paper's estimate, the mean of the filtered fit alone. The settings below are for
   /// true.
   bool residuals = true;

@@ -14,9 +14,9 @@ namespace freqsynth {
 ///   {data, width, height, 0, 0, width}            a row of one channel, then of the next;
 ///   {data, width, height, 0, 0, width * height}   one channel, then the next.
 struct PixelView {
-  float* data = nullptr;  ///< channel 0 of the pixel in the top left corner
-  std::size_t width = 0;
-  std::size_t height = 0;
+  float* data = nullptr;              ///< channel 0 of the pixel in the top left corner
+  std::size_t width = 0;              ///< pixels in a row
+  std::size_t height = 0;             ///< pixels in a column
   std::ptrdiff_t pixel_stride = 0;    ///< from a pixel to the one on its right
   std::ptrdiff_t row_stride = 0;      ///< from a pixel to the one below
   std::ptrdiff_t channel_stride = 1;  ///< from a channel to the next

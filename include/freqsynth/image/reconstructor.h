@@ -15,10 +15,11 @@
 
 namespace freqsynth {
 
+/// How pixels are made of coefficients.
 struct ReconstructionSettings {
   /// Applies to CoefficientMeaning::point_function; finished pixels are not filtered again.
   ButterworthSettings butterworth = {};
-  PixelFilter pixel_filter = PixelFilter::box;
+  PixelFilter pixel_filter = PixelFilter::box;  ///< what a pixel's value is
   /// Replace values below zero, the ringing beside bright edges, by zero.
   bool clamp_negative = false;
 };

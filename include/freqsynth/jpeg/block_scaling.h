@@ -21,8 +21,8 @@ class FREQSYNTH_API AxisMap {
   static AxisMap enlarge(std::size_t part, std::size_t factor) { return {part, factor, true}; }
 
   /// Sets `out` to the coefficients of `block`, another one, after both axes. Both are in rows of
-  /// frequencies [v][u]. Not returned by value: gcc 12 without optimisation may put what is returned
-  /// where it is not aligned.
+  /// frequencies [v][u]. Not returned by value: gcc 12 without optimisation may put what is
+  /// returned where it is not aligned.
   static void apply(const AxisMap& across, const AxisMap& down, const AlignedBlock& block,
                     AlignedBlock& out);
 

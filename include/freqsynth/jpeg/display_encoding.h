@@ -20,6 +20,7 @@
 
 namespace freqsynth {
 
+/// The encoding of sRGB, from linear values to 0..255 and back.
 struct DisplayEncoding {
   float exposure = 1;  ///< factor on linear values; finite and > 0
 
@@ -68,6 +69,7 @@ class DisplaySampler {
     encoding.validate();
   }
 
+  /// A BatchSampler: calls the other sampler and encodes what it returns.
   void operator()(std::span<const Request> requests, std::span<float> values) {
     std::size_t done = 0;
     detail::call_sampler(sampler_, requests, values, done);

@@ -13,6 +13,7 @@
 
 namespace freqsynth {
 
+/// How coefficients are coded; it does not change the picture.
 struct JpegOptions {
   bool progressive = false;  ///< coarse to fine instead of top to bottom; implies `optimize`
   bool optimize = true;      ///< Huffman codes made for this image: a second pass, a smaller file

@@ -22,10 +22,11 @@ enum class Subsampling : std::uint8_t {
   both   ///< 4:2:0, half the resolution in both directions
 };
 
+/// Tables, and what comes before them.
 struct QuantizationSettings {
   QuantizationTable luminance = luminance_table();      ///< for the first channel
   QuantizationTable chrominance = chrominance_table();  ///< for all others
-  Subsampling subsampling = Subsampling::none;
+  Subsampling subsampling = Subsampling::none;          ///< of all channels but the first
   /// Applies to CoefficientMeaning::point_function; finished pixels are not filtered again.
   ButterworthSettings butterworth = {};
 };

@@ -13,18 +13,20 @@ namespace freqsynth {
 
 /// One colour component of a quantised image.
 struct QuantizedComponent {
-  std::size_t blocks_x = 0, blocks_y = 0;
-  /// Sampling factors of JPEG: blocks of this component in a group of blocks.
-  int horizontal = 1, vertical = 1;
+  std::size_t blocks_x = 0;  ///< in a row
+  std::size_t blocks_y = 0;  ///< in a column
+  int horizontal = 1;  ///< sampling factor of JPEG: blocks of this component in a group of blocks
+  int vertical = 1;    ///< the same downwards
   std::size_t table = 0;             ///< index of its table
   std::vector<std::int16_t> values;  ///< [block][term], terms in zig-zag order
 };
 
 /// An image as quantised coefficients, level-shifted as JPEG stores them.
 struct QuantizedImage {
-  std::size_t width = 0, height = 0;  ///< pixels
-  std::vector<QuantizationTable> tables;
-  std::vector<QuantizedComponent> components;
+  std::size_t width = 0;                       ///< pixels
+  std::size_t height = 0;                      ///< pixels
+  std::vector<QuantizationTable> tables;       ///< those that the components name
+  std::vector<QuantizedComponent> components;  ///< Y, or Y, Cb and Cr
   /// Coefficients that baseline JPEG cannot code and that were clamped, or were not numbers.
   std::uint64_t clamped = 0;
 

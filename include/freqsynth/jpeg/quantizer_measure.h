@@ -30,6 +30,7 @@ class QuantizerMeasure {
         noisy_(noisy),
         book_(blocks) {}
 
+  /// See BlockMeasure.
   template <Refiner R>
   void absorbed(const BlockView<R>& view, std::uint32_t block, float) {
     book_.absorbed(view, block);
@@ -46,6 +47,7 @@ class QuantizerMeasure {
     return factor * std::max(error, allowed) / static_cast<float>(samples);
   }
 
+  /// See BlockMeasure.
   [[nodiscard]] bool has_news(std::uint32_t block) { return book_.has_news(block); }
   /// Of the others only whether they still meet the target is of interest.
   [[nodiscard]] static bool cares(float priority) { return priority == 0; }

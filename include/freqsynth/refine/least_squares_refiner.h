@@ -32,8 +32,11 @@ class FREQSYNTH_API LeastSquaresRefiner {
   LeastSquaresRefiner(SharedInverseList list, std::size_t channels,
                       std::vector<float> weights = {});
 
+  /// The list of gains.
   [[nodiscard]] const InverseList& list() const { return *list_; }
+  /// A reference to it, for others to share.
   [[nodiscard]] const SharedInverseList& shared_list() const { return owner_; }
+  /// Values per sample.
   [[nodiscard]] std::size_t channels() const { return channels_; }
   /// Weight of each channel.
   [[nodiscard]] std::span<const float> weights() const { return weights_; }
@@ -65,6 +68,7 @@ class FREQSYNTH_API LeastSquaresRefiner {
   }
   /// squared_residuals() over freedom(): weighted over the channels, and of one channel.
   [[nodiscard]] float residual(const float* state, std::size_t samples) const;
+  /// The same of one channel.
   [[nodiscard]] float residual(const float* state, std::size_t samples, std::size_t channel) const {
     return squared_residuals(state, channel) / freedom(samples);
   }

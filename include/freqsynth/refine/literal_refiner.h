@@ -16,6 +16,7 @@ namespace freqsynth {
 /// competitor of its benchmark.
 class FREQSYNTH_API LiteralRefiner {
  public:
+  /// Starts with no sample. There is a list.
   explicit LiteralRefiner(SharedInverseList list) : list_(std::move(list)) {}
 
   /// Adds the next sample to Y (eq. 23) and solves for X (eq. 25).
