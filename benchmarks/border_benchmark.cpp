@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Cost of one more term in J^-1 (eq. 37), and of a whole list of inverses. The competitors are the
 // same formula in Eigen and the inverse computed anew.
 

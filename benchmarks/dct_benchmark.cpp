@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Inverse transform of one 8 x 8 block of coefficients.
 
 #include <benchmark/benchmark.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// The competitor of the updates of J^-1: the inverse computed anew, by textbook Cholesky.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Cost of the engine per RGB sample, one thread, at 1 sample per pixel of a scene that costs next
 // to nothing. The time of a case is that of the construction, the run and the frequency image
 // together; the counters, in nanoseconds per sample, are the parts of it. `core` is what the engine

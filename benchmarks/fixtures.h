@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// What several benchmarks share: term vectors, normal matrices, a list, a scene that costs next to
 /// nothing, and an engine that has sampled it.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A frequency image of 1920 x 1080 pixels, YCbCr, to the bytes of a JPEG of quality 90, one thread.
 // "coefficients" quantises the blocks and codes them; "pixels" reconstructs, rounds to 8 bits and
 // hands interleaved YCbCr to libjpeg's compressor, which transforms them back. Tables, subsampling

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Construction of the list that all images share, from nothing, one thread. `per_entry` is the time
 // divided by the number of entries.
 

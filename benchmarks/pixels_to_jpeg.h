@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// The ordinary way to a JPEG file, through libjpeg's compressor.
 #pragma once

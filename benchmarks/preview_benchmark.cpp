@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How long a thread that renders is kept waiting while another one makes a preview: a finished
 // image of 1920 x 1080 pixels, RGB. A turn is a request of 1024 samples, their values and their
 // delivery. The time of a case is the longest turn that began during a preview, as the mean of the

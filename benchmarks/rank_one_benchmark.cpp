@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Cost of one more sample in J^-1 (eq. 33). The competitors are the formula of Sherman and Morrison
 // in Eigen, in the three ways to write it that are the fastest at some number of terms; the formula
 // of the paper in Eigen, word for word; and the inverse computed anew.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// What the benchmarks of the updates of J^-1 share: J and J^-1 as the library and as Eigen store
 /// them, and the inverse computed anew by LAPACK.

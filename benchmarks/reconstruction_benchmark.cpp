@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A frequency image of 1920 x 1080 pixels, RGB, to interleaved pixels: Butterworth filter, area
 // average, one thread. The competitor filters the same coefficients and transforms block by block
 // with FFTW, at the image's own size only.

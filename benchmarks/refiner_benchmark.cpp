@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Cost of one RGB sample in a block of 64 terms: through the shared gains, and through X = J^-1 Y
 // (eq. 25). Indices 200 .. 499 of the sequence, where the fit is complete. `blocks:1` keeps one
 // state in the nearest cache; with many blocks the next one is anywhere, as in the engine.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What an engine of 1920 x 1080 pixels, RGB, at 1 sample per pixel takes to hand out its result,
 // one thread: the coefficients of the fit, and finished pixels.
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # Root mean square error of linear values against 256 jittered samples per pixel, for the paper's scenes at
 # 512 x 512. On Debian, installs what is missing.
 #   benchmarks/rmse.sh [SCENE...]

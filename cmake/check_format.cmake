@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Checks the layout of the C++ sources below ROOT, or with -DFIX=ON repairs it.
 #   cmake [-DROOT=.] [-DFIX=ON] -P cmake/check_format.cmake
 cmake_minimum_required(VERSION 3.25)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Checks the includes of the headers below INCLUDE_DIR/freqsynth against the layer table, and with
 # -DREADME=README.md that its table of headers is the one made from the layer table; with -DFIX=ON
 # too, writes it there.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Checks that each source, script and CMake file below ROOT says its licence in the first line, the
 # one after "#!" where there is one, or with -DFIX=ON writes it there.
 #   cmake [-DROOT=.] [-DFIX=ON] -P cmake/check_licence.cmake

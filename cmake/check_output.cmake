@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Fails unless DOCUMENT shows what PROGRAM prints, or with -DFIX=ON writes it there. It is the block
 # ``` after a line "<!-- NAME prints -->", NAME being that of the program's file.
 #   cmake -DPROGRAM=build/noisy -DDOCUMENT=docs/settings.md [-DFIX=ON] -P check_output.cmake

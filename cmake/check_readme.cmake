@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Fails unless the ```cpp blocks of README are the files EXAMPLES of FOLDER, one each and in this
 # order, but for trailing newlines and the line with the licence.
 #   cmake -DREADME=README.md -DFOLDER=examples -DEXAMPLES=a.cpp,b.cpp -P check_readme.cmake

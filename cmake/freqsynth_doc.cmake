@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # The target freqsynth_doc: the API reference by Doxygen, in docs/api of the build folder. A comment
 # that is missing or leads nowhere fails it.
 if(PROJECT_IS_TOP_LEVEL)

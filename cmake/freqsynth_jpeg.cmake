@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # The component freqsynth::jpeg, the only part of the library that needs another one: libjpeg.
 if(PROJECT_IS_TOP_LEVEL)
   set(jpeg_default AUTO)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Settings of the libraries that are installed.
 function(freqsynth_library target)
   set_target_properties(${target} PROPERTIES

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # gcc, clang, and those that take their options.
 set(freqsynth_gnu_like FALSE)
 if(CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang" AND NOT CMAKE_CXX_COMPILER_FRONTEND_VARIANT STREQUAL "MSVC")

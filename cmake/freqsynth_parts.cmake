@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # What is built beside the library. Each part is ON, OFF, or AUTO: when what it needs is found.
 # Afterwards FREQSYNTH_BUILD_<PART> is ON or OFF in this folder and those below; the cache keeps
 # what the user said.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # The layer table: the one list of the library's headers, lowest first, each as
 #   header | what it does | section of the paper
 # The build installs exactly these (jpeg/jpeg.h and jpeg/jpeg_file.h with their component), check_layers.cmake lets each

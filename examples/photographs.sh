@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # Makes photographs to look at with freqsynth_render --scene image:FILE, 512x512 pixels each.
 #   examples/photographs.sh FOLDER
 #

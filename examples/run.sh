@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # Builds the examples in build/examples. On Debian, installs what they need and is missing.
 #   examples/run.sh                 renders the two scenes into out/
 #   examples/run.sh ARGUMENTS...    runs freqsynth_render with these arguments

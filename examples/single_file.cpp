@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #define FREQSYNTH_HEADER_ONLY  // nothing to build or link: g++ -std=c++20 -Iinclude single_file.cpp
 #include <cmath>
 #include <fstream>

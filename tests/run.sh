@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # Builds and runs the tests in build/. On Debian, installs what they need and is missing.
 #   tests/run.sh [--sanitize | --threads] [--clang] [arguments of ctest]
 #     --sanitize  the unit tests only, with AddressSanitizer and UndefinedBehaviorSanitizer

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "alpha_trimmed.h"
 
 #include <algorithm>

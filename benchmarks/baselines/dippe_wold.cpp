@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "dippe_wold.h"
 
 #include <stdexcept>

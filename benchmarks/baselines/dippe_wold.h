@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// A weighted average whose width follows the noise.
 #pragma once

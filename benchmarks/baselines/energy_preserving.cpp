@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "energy_preserving.h"
 
 #include <algorithm>

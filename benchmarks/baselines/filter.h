@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// Pixel filters, and the weighted average that reconstructs a picture from samples anywhere.
 #pragma once

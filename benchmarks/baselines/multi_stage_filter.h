@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// A reconstruction that does not mind clumps of samples.
 #pragma once

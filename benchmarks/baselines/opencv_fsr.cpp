@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "opencv_fsr.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// A picture from a part of its pixels: OpenCV's frequency selective reconstruction.
 #pragma once

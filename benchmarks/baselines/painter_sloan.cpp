@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "painter_sloan.h"
 
 #include <algorithm>

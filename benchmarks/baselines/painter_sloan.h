@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// Adaptive progressive refinement by a tree of samples.
 #pragma once

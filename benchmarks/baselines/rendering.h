@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// What every system of the survey takes and gives.
 #pragma once

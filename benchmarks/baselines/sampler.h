@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// What all systems share: random numbers, a radiance function that counts, and stratification.
 #pragma once

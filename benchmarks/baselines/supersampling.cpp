@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "supersampling.h"
 
 namespace baselines {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// Supersampling: the same rate everywhere.
 #pragma once

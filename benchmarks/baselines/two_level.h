@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// Adaptive sampling with two densities.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// Adaptive subdivision of pixels by their corners.
 #pragma once

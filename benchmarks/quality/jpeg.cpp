@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Samples straight to JPEG, measured: what a synthesis to a quality costs and gives, and how a file
 // made of fitted coefficients compares with one made of pixels. Prints Markdown.
 

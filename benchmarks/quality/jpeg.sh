@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # Measures files made straight from samples against files made of pixels, and what a synthesis to a
 # quality costs and gives; writes docs/jpeg_results.md. On Debian, installs what is missing.
 #   benchmarks/quality/jpeg.sh     fan, chess and two photographs: about ten minutes

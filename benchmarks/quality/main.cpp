@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Measures the error of this library and of others on the same scenes.
 
 #include <algorithm>

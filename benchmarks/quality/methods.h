@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// The methods to compare, and one fair run of one of them.
 #pragma once

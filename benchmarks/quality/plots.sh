@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # Draws the error against samples per pixel, a panel for each scene and a curve for each method. On
 # Debian, installs what is missing.
 #   benchmarks/quality/plots.sh [RESULTS.csv [PICTURE.png]]

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Tables of docs/quality.md from results.csv; see the script `report`.
 #   awk -v part=best     for each scene its file name, its name, the best other method at 1 sample
 #   awk -v part=headline, losses, scenes      the sections

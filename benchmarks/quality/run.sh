@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # Measures the error of this library and of others, scene by scene. On Debian, installs what is
 # missing. Then benchmarks/quality/report tells it in docs/quality.md.
 #   benchmarks/quality/run.sh             all scenes: ten minutes or more

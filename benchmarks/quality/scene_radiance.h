@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// The one place that knows the interface of the scenes.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What each free parameter of the method does to the error: one at a time is moved away from its
 // default. Half of the scenes are there to choose by, the other half to check the choice. Prints
 // Markdown.

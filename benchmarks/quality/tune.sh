@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # Measures what each free parameter of the method does to the error and writes docs/tuning.md. What
 # stands there below the line <!-- conclusions --> is kept. On Debian, installs what is missing.
 #   benchmarks/quality/tune.sh [OPTIONS]     options of freqsynth_tune; none: a few minutes

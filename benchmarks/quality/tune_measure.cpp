@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "quality/tune_measure.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// The error of pictures made with each value of each parameter.
 #pragma once

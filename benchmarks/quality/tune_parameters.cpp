@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "quality/tune_parameters.h"
 
 #include <algorithm>

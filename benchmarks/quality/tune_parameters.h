@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// The free parameters of the method: the values of each that freqsynth_tune tries.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "coefficients.h"
 
 #include <OpenImageIO/imagebuf.h>

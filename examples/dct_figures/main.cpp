@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Makes the paper's figures 2, 3 and 4 from any picture, and the picture at three JPEG qualities.
 
 #include <OpenImageIO/argparse.h>

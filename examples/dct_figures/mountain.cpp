@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "mountain.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Renders a scene with freqsynth, or with jittered samples for comparison.
 
 #include <chrono>

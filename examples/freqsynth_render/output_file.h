@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// What a program writes is there whole or not at all, and nothing else is touched.
 #pragma once

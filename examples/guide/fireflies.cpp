@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // One sample that is far too bright in a picture of 0.1 to 1: what it does to the rest.
 #include <cmath>
 #include <cstdio>

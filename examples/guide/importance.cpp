@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Errors that matter more in some places, and in some channels.
 #include <array>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A sampler with noise, a Monte Carlo estimate seeded by the request's id, and one without.
 #include <cmath>
 #include <cstdint>

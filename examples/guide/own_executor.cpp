@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // run() on a pool of the host's own, with an end after a time, an exception and bad samples.
 #include <algorithm>
 #include <chrono>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A renderer with threads of its own: they fetch positions and bring values, whoever is free, while
 // another thread looks at the picture as it grows.
 #include <atomic>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a number of samples buys, and what an aliasing threshold.
 #include <cmath>
 #include <cstdio>

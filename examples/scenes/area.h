@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// Areas in closed form, for scenes whose pixel averages are known.
 #pragma once

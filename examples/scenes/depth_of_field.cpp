@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "depth_of_field.h"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "dots.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "glossy.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "lit_corner.h"
 
 #include <algorithm>

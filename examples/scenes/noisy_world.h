@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// What the noisy scenes of solids have in common.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// Random numbers that depend on nothing but the name of a sample.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// The interface of the scenes and how to get one.
 #pragma once

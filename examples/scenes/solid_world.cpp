@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "solid_world.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// A few solids on a floor, for the ray-traced scenes with random secondary rays.
 #pragma once

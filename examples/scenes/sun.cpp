@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "sun.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// Adaptive image synthesis in the frequency domain (M. R. Bolin, "Application of Image Compression
 /// Algorithms to Realistic Image Synthesis", 1995): all that a host needs. Other parts, each usable

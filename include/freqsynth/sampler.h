@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// What the library asks of a host, and in which form: requests and the sampler concepts.
 ///

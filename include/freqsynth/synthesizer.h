@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// The engine as hosts use it (paper, section 4): chooses positions, takes values, refines blocks.
 ///

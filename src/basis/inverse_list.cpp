@@ -1,1 +1,2 @@
+// SPDX-License-Identifier: MIT
 #include "freqsynth/basis/inverse_list.inl"

@@ -1,1 +1,2 @@
+// SPDX-License-Identifier: MIT
 #include "freqsynth/engine/stop_rule.inl"

@@ -1,1 +1,2 @@
+// SPDX-License-Identifier: MIT
 #include "freqsynth/image/frequency_image.inl"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "freqsynth/jpeg/jpeg_file.h"
 
 #if defined(_WIN32)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// libjpeg in C++: its errors as exceptions, its objects destroyed.
 #pragma once

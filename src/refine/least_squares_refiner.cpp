@@ -1,1 +1,2 @@
+// SPDX-License-Identifier: MIT
 #include "freqsynth/refine/least_squares_refiner.inl"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// Radiance functions and measures for the tests of the baselines.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "baselines/filter.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "baselines/methods.h"
 
 #include <gtest/gtest.h>

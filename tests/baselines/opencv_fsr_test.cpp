@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Only where there is OpenCV. What all methods have in common is tested with the others.
 #ifdef FREQSYNTH_BASELINES_OPENCV
 #include "baselines/opencv_fsr.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "baselines/sampler.h"
 
 #include <gtest/gtest.h>

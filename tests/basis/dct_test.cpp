@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "freqsynth/basis/dct.h"
 
 #include <gmock/gmock.h>

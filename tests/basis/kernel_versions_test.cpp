@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Every version of the kernels that this processor can run gives the same bits.
 
 #include <gtest/gtest.h>

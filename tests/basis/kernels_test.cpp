@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Each kernel, in its plain version, against the same formula in long double.
 
 #include "freqsynth/basis/kernels.h"

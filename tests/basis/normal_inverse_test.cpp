@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "freqsynth/basis/normal_inverse.h"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "freqsynth/basis/sample_sequence.h"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "freqsynth/engine/block_choice.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "freqsynth/engine/block_grid.h"
 #include "freqsynth/basis/sample_sequence.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "freqsynth/engine/block_measure.h"
 #include "freqsynth/refine/least_squares_refiner.h"
 #include "freqsynth/sampler.h"

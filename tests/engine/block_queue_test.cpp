@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "freqsynth/engine/block_queue.h"
 
 #include <gtest/gtest.h>

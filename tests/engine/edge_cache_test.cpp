@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "freqsynth/engine/edge_cache.h"
 #include "freqsynth/basis/sample_sequence.h"
 

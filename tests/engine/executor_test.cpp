@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "freqsynth/engine/executor.h"
 #include "freqsynth/engine/thread_pool.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A single stray value, like the fireflies of path tracers, stays where it is: the error elsewhere
 // hardly changes.
 

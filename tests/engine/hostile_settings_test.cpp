@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Settings at and beyond the ends of their ranges: refused by name, or a run that works.
 
 #include <gmock/gmock.h>

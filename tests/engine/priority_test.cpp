@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "freqsynth/engine/priority.h"
 
 #include <gmock/gmock.h>

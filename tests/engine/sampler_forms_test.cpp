@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "freqsynth/sampler.h"
 
 #include <gmock/gmock.h>

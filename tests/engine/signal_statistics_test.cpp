@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "freqsynth/engine/signal_statistics.h"
 #include "freqsynth/sampler.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "freqsynth/engine/stop_rule.h"
 
 #include <gtest/gtest.h>

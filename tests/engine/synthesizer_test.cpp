@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "freqsynth/synthesizer.h"
 #include "freqsynth/basis/inverse_list.h"
 #include "freqsynth/basis/sample_sequence.h"

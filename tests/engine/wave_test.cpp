@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "freqsynth/engine/wave.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Compiled with -ffast-math, as many renderers are: their compiler may take every value for a
 // finite number, and faults must be counted all the same.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A caller that was told that there are finite numbers only, as renderers like to be: bad samples
 // are seen all the same.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What happens when memory runs out: for every k of a small piece of work the k-th allocation fails
 // once, the same call is made again, and the result must be that of work without a fault.
 

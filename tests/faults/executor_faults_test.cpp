@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Executors that do not keep their promise: the engine goes on or says why not, and nothing that
 // was sampled is lost.
 

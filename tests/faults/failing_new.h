@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// Memory that runs out on demand. A program that links failing_new.cpp allocates through it.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "freqsynth/image/butterworth.h"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "freqsynth/image/frequency_image.h"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "freqsynth/image/pixel_finisher.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "freqsynth/image/pixel_view.h"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "freqsynth/image/reconstructor.h"
 
 #include <gmock/gmock.h>

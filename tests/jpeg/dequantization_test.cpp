@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "freqsynth/jpeg/dequantization.h"
 
 #include <gmock/gmock.h>

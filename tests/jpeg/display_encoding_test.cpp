@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "freqsynth/jpeg/display_encoding.h"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "freqsynth/jpeg/jpeg.h"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "freqsynth/jpeg/quantization_target.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "freqsynth/jpeg/quantization.h"
 
 #include <gmock/gmock.h>

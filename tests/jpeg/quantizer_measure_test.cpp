@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "freqsynth/jpeg/quantizer_measure.h"
 #include "freqsynth/refine/least_squares_refiner.h"
 #include "freqsynth/sampler.h"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # One packaging test; CMakeLists.txt beside this file says with what arguments.
 cmake_minimum_required(VERSION 3.25)
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # What #include "freqsynth/freqsynth.h" costs: preprocessed lines that are not blank, and CPU
 # seconds (median of 5) to check a file that has nothing else and to compile it with -O2; compiled mode and
 # header-only.

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # Builds and runs the library with other compilers, standard libraries and processors, in
 # build/portability. On Debian, installs what is missing. Not part of tests/run.sh: it takes longer.
 #   tests/portability/run.sh [PART]...    without arguments all of:

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Feeds check_layers.cmake a good tree and trees with one fault each.
 #   cmake -DCHECK=check_layers.cmake -DWORK_DIR=scratch -P check_layers_test.cmake
 cmake_minimum_required(VERSION 3.25)

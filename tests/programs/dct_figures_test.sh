@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # Makes the figures of all kinds of pictures, and uses dct_figures wrongly.
 #   dct_figures_test.sh PROGRAM RENDERER FOLDER
 # RENDERER is freqsynth_render, which makes the pictures.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # For tests of programs, to be sourced. `program` names the program under test.
 
 fail() {

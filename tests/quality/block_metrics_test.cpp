@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The metrics of blocks and of the borders between them.
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # Uses freqsynth_quality as a newcomer does, and as a careless one does.
 #   freqsynth_quality_test.sh PROGRAM FOLDER
 set -euo pipefail

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # Uses freqsynth_tune as a newcomer does, and as a careless one does.
 #   freqsynth_tune_test.sh PROGRAM FOLDER
 set -euo pipefail

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The methods as entries of the laboratory, and the laboratory's own accounts.
 
 #include "quality/methods.h"

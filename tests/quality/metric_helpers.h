@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// Pictures for the tests of the metrics.
 #pragma once

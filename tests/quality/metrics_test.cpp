@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The metrics of whole pictures against closed forms.
 
 #include "quality/metrics.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the published comparison rests on: the figures of small pictures as they were measured, with
 // a quarter more allowed. The figures of great ones are measured by benchmarks/quality, not here.
 

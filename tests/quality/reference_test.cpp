@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "quality/reference.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # The tables of the report for results whose answer is known.
 #   report_test.sh REPORT.AWK FOLDER
 set -euo pipefail

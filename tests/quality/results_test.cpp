@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The table of results, names of files, and the window that is shown.
 
 #include "quality/results.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // SSIM against closed forms and against a slow computation that follows the definition.
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Results that must not change by accident: a hash of the bits of every coefficient, count and
 // pixel of each configuration below, compared with the one on record. Without arguments; prints
 // one line each, and fails where a hash differs. It needs nothing but the library, so that other

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "freqsynth/refine/least_squares_refiner.h"
 #include "freqsynth/basis/sample_sequence.h"
 #include "freqsynth/refine/literal_refiner.h"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Compiles each case of refused.cpp and looks for its sentence in what the compiler says.
 #   cmake -DCOMPILER=g++ -DINCLUDE_DIR=include -P check_refused.cmake
 cmake_minimum_required(VERSION 3.25)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Samplers that must not compile, one at a time (-DCASE=n), each refused with the sentence beside
 // it.
 #if CASE == 6  // needs the compiled library

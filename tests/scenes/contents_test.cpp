@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What each of the scenes shows.
 
 #include <gtest/gtest.h>

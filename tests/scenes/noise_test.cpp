@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The noise of the scenes that are integrals, and its random numbers.
 
 #include <gtest/gtest.h>

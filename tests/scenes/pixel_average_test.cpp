@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The averages over pixels that scenes know exactly, and the areas that they are made of.
 
 #include <gtest/gtest.h>

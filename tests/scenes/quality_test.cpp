@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The promise of the library on the paper's scenes, as it was measured, with a quarter more
 // allowed. The figures of great pictures are measured by benchmarks, not here.
 

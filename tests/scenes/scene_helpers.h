@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// Scenes by name, and samples of them, for the tests of the scenes.
 #pragma once

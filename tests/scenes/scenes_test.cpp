@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What every scene must do.
 
 #include <gtest/gtest.h>

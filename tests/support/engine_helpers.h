@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// Pictures and small tools that the tests of the engine share.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// libjpeg's own way from pixels to files and back, to compare with.
 #pragma once

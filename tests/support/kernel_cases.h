@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// Random arguments for the kernels, over all sizes that they take.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// Slow, obviously right computations that the library is compared with. Everything here is written
 /// from the paper's equations in long double, and uses none of the library's own numerics.

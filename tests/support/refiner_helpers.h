@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// A block that is fed by hand, and how close its coefficients must be.
 #pragma once

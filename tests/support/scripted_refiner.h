@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// An estimator without any estimating: what it says of a block is what it was told, so that the
 /// parts that look at estimates can be tested with estimates of the test's choice.

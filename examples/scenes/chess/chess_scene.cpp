@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "chess_scene.h"
 
 #include <algorithm>

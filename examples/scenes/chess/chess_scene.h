@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// The `chess` scene: a small recursive ray tracer (Whitted 1980).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "horse_head.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// What the pieces stand on: the board, and the ground under it.
 #pragma once

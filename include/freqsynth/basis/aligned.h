@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// Memory that starts on a cache line, as the vectorised kernels want it: of fixed size, and not.
 #pragma once

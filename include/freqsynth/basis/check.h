@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// How arguments are refused: an std::invalid_argument that names the value and what it must be.
 #pragma once

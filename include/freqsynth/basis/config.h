@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// Version, block constants, and the macros of the two ways to build: what every other header may
 /// rely on.

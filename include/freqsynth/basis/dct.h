@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// The Discrete Cosine Transform of an 8 x 8 block (paper, section 2): terms at any point, zig-zag
 /// order, forward and inverse transform.

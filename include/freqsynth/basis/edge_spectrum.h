@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// What terms are expected to hold that no sample has told of yet.
 #pragma once

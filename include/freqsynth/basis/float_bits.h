@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// What kind of number a floating-point value is, told from its bits: right also where the compiler
 /// was told that there are finite numbers only (-ffast-math, usual in renderers).

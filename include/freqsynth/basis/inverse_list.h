@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// The shared list (paper, section 4.3): for every index of the sample sequence the position, the
 /// number of terms, J^-1, and the gain and bordering vectors that are derived from it.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// The hot kernels, compiled once per instruction set; which of them the processor can run is found
 /// out once, at run time. Every version adds in the same order and none fuses multiply and add, so

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The kernels, written once. kernels.inl includes this file for each instruction set, with
 //   FREQSYNTH_KERNEL_SET    the namespace
 //   FREQSYNTH_KERNEL        the attributes of its functions

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Vectors of numbers for kernels_body.inl, in registers of the size that the instruction set has.
 
 namespace freqsynth::detail::FREQSYNTH_KERNEL_SET {

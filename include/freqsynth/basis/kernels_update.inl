@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The rank-one update, written once like the other kernels of kernels_body.inl, and worth wider
 // registers than those.
 

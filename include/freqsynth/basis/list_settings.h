@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// What a list of inverse matrices (inverse_list.h) depends on.
 #pragma once

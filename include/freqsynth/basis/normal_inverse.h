@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// The normal matrix J (eq. 22) and its inverse for a growing number of samples and terms: Powell's
 /// rank-one update (eq. 33) and Frobenius bordering (eq. 37), in double, O(T^2) each.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// The quad-tree sample sequence that all blocks share (paper, section 4.3.1).
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// A list of inverse matrices (inverse_list.h) that several images share.
 #pragma once

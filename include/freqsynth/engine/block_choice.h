@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// Which blocks are next (paper, section 4.4): the queue, kept in order by a measure.
 #pragma once

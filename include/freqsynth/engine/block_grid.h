@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// The blocks of an image: where they lie, and which of them share points and edges.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// How much a block deserves the next sample: the interface of a measure, and the measures of the
 /// paper (its change) and beyond it (its residuals). A third is in jpeg/quantizer_measure.h.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// The queue of blocks (paper, section 4.4, where it is a sorted linked list): here a tournament
 /// over a fixed set of players, so that any block's priority can change at any time.

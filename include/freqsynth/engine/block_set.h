@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// A set of blocks that is filled and emptied often.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// What is known of each block: its refiner's state and how many samples it has had.
 #pragma once

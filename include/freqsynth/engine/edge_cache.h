@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// The cache of border samples (paper, section 4.3.1): values on the border between blocks that
 /// wait until the neighbour's sequence reaches their index.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// The engine (paper, section 4): chooses positions, takes values, refines blocks. It is made of
 /// parts that can be used alone: the grid, the store of blocks, the cache of border samples, the

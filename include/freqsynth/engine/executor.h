@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// How `run` uses several threads: an executor runs independent tasks. The library itself starts no
 /// thread unless the host constructs a ThreadPool (thread_pool.h); a host with a pool of its own

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// The priority metric (paper, section 4.4): how much a block deserves the next sample.
 #pragma once

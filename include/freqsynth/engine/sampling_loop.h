@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// The loop that takes requests from an engine and lets a sampler answer them: what
 /// Synthesizer::run() does once it no longer needs to know the types of sampler, executor and

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// The scale of the signal: what "much" and "little" mean where blocks are compared.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// When a synthesis ends, and what it says of itself.
 #pragma once

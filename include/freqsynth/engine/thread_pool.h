@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// A pool of threads, for hosts that have none. Part of the compiled library only.
 #pragma once

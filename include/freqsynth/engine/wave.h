@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// A wave: positions that were chosen together, and the values that have come for them.
 ///

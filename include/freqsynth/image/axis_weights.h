@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// Resampling along one axis: what each frequency of a block is worth in each pixel of an output of
 /// another size. Pixels at any resolution are these weights of both axes, applied to coefficients.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// Images of a store of blocks: what the refiner says of each, as it is and finished.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// The Butterworth low-pass filter that removes remaining aliasing (paper, section 4.5). Its cutoff
 /// frequency follows the square root of the number of samples of a block.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// The result: an image as a grid of 8 x 8 blocks of DCT coefficients per channel, with the number
 /// of samples behind each block. It does not know how it came to be.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// From the fit of a block to finished pixels: beyond the paper, what the fit leaves over is not
 /// thrown away.

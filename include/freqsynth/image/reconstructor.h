@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// Frequency image to pixels (paper, section 4.5): filtered by multiplying coefficients, at any
 /// resolution, into the caller's memory.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// Linear maps between blocks of pixels of different sizes, in frequencies: how chroma is halved
 /// and enlarged without making a pixel.

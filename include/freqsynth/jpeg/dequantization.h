@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// The way back from quantised coefficients to a frequency image (paper, section 2): steps undone,
 /// chroma of a lower resolution enlarged.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// Display encoding: linear radiance to the signal of a JPEG file, and samplers that do it.
 ///

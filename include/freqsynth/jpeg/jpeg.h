@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// Quantised images to the bytes of JPEG files and back: the coefficients themselves, no pixel is
 /// ever made. Component `freqsynth::jpeg`, which needs libjpeg; not part of freqsynth.h.

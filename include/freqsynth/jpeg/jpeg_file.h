@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// Quantised images to JPEG files and back. Component `freqsynth::jpeg`, which needs libjpeg; not
 /// part of freqsynth.h.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// Frequency image to quantised JPEG coefficients (paper, section 2, eq. 3), chroma at half the
 /// resolution included.

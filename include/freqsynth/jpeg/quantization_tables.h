@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// The quantiser's tables (paper, section 2, figure 5): those of the JPEG standard, and finer and
 /// coarser ones.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// The target of a synthesis that ends in a quantiser (paper, sections 1, 2 and 6): a block needs
 /// samples while the errors of its coefficients can still change what the quantiser keeps.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// The quantised image as a plain value that any encoder can take (paper, section 2).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// How much a block deserves the next sample when the synthesis ends in a quantiser (paper,
 /// sections 1, 2 and 6): by what its errors may change after quantisation.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// The paper's block refiner (sections 4.1 and 4.2): least squares in the first T cosine terms.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// The paper's refiner word by word: slow, and easy to believe.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// What an estimator of blocks must do. The engine knows no more of it than this concept: what a
 /// block keeps, how it takes in the next value, what is left over, and what the block is then.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "freqsynth/freqsynth.h"
 
 const char* version_of_other_unit();

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "freqsynth/freqsynth.h"
 
 /// The version of the library, or null when it does not work.
