@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "coefficients.h"
 
-#include <OpenImageIO/imagebuf.h>
-#include <OpenImageIO/imagebufalgo.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,6 +10,7 @@
 #include <system_error>
 #include <utility>
 
+#include "../scenes/picture_file.h"
 #include "freqsynth/basis/dct.h"
 #include "freqsynth/image/reconstructor.h"
 #include "freqsynth/jpeg/dequantization.h"
@@ -28,38 +26,14 @@ using freqsynth::block_size;
 /// The inverse of the transfer function of sRGB, for 0..1.
 float linear_of(float encoded) { return freqsynth::DisplayEncoding{}.decode(255 * encoded); }
 
-bool is_linear(const OIIO::ImageSpec& spec) {
-  const std::string space = spec.get_string_attribute("oiio:ColorSpace");
-  if (OIIO::Strutil::iequals(space, "sRGB")) return false;
-  return spec.format.is_floating_point() || OIIO::Strutil::iequals(space, "linear") ||
-         space == "scene_linear";
-}
-
 /// Linear values, one channel or three.
 Picture read_picture(const std::string& file) {
-  // Without this hint the colours would be multiplied by the alpha that is to be ignored.
-  OIIO::ImageSpec hints;
-  hints.attribute("oiio:UnassociatedAlpha", 1);
-  OIIO::ImageBuf stored(file, 0, 0, nullptr, &hints);
-  if (!stored.read(0, 0, /*force=*/true, OIIO::TypeDesc::FLOAT)) {
-    throw std::runtime_error(file + ": " + stored.geterror());
-  }
-  const bool linear = is_linear(stored.nativespec());
-  const OIIO::ImageBuf upright = OIIO::ImageBufAlgo::reorient(stored);
-  OIIO::ROI roi = upright.roi();
-  roi.chend = roi.nchannels() >= 3 ? 3 : 1;
-  Picture picture{static_cast<std::size_t>(roi.width()),
-                  static_cast<std::size_t>(roi.height()),
-                  static_cast<std::size_t>(roi.nchannels()),
-                  {}};
-  picture.pixels.resize(picture.width * picture.height * picture.channels);
-  if (picture.pixels.empty() ||
-      !upright.get_pixels(roi, OIIO::TypeDesc::FLOAT, picture.pixels.data())) {
-    throw std::runtime_error(file + ": " + upright.geterror());
-  }
+  const scenes::PictureFile stored = scenes::read_picture_file(file);
+  const float* const values = stored.values.get();
+  Picture picture{stored.width, stored.height, stored.channels, {values, values + stored.size()}};
   for (float& value : picture.pixels) {
     if (!std::isfinite(value) || value < 0) value = 0;
-    if (!linear) value = linear_of(value);
+    if (stored.encoded) value = linear_of(value);
   }
   return picture;
 }

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "image_scene.h"
 
-#include <OpenImageIO/imagebuf.h>
-#include <OpenImageIO/imagebufalgo.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <filesystem>
-#include <stdexcept>
-#include <system_error>
+
+#include "picture_file.h"
 
 namespace scenes {
 namespace {
@@ -18,52 +14,21 @@ float srgb_to_linear(float value) {
   return value <= 0.04045F ? value / 12.92F : std::pow((value + 0.055F) / 1.055F, 2.4F);
 }
 
-bool is_encoded(const OIIO::ImageSpec& spec) {
-  const std::string space = spec.get_string_attribute("oiio:ColorSpace");
-  if (space == "sRGB") return true;
-  const bool linear = OIIO::Strutil::iequals(space, "linear") || space == "scene_linear";
-  return !spec.format.is_floating_point() && !linear;
-}
-
-[[noreturn]] void fail(const std::string& file, const OIIO::ImageBuf& picture) {
-  throw std::runtime_error("cannot read picture '" + file + "': " + picture.geterror());
-}
-
 }  // namespace
 
 ImageScene::ImageScene(const std::string& file, int width, int height) {
-  // A device may have no end.
-  std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(file, error);
-  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
-    throw std::runtime_error("cannot read picture '" + file + "': not a regular file");
-  }
-  // Without this hint the colours would be multiplied by the alpha that is to be ignored.
-  OIIO::ImageSpec hints;
-  hints.attribute("oiio:UnassociatedAlpha", 1);
-  OIIO::ImageBuf stored(file, 0, 0, nullptr, &hints);
-  if (!stored.read(0, 0, /*force=*/true, OIIO::TypeDesc::FLOAT)) fail(file, stored);
-  const bool encoded = is_encoded(stored.nativespec());
-
-  const OIIO::ImageBuf picture = OIIO::ImageBufAlgo::reorient(stored);
-  const OIIO::ROI roi = picture.roi();
-  const auto channels = static_cast<std::size_t>(roi.nchannels());
-  std::vector<float> values(roi.npixels() * channels);
-  if (values.empty() || !picture.get_pixels(roi, OIIO::TypeDesc::FLOAT, values.data())) {
-    fail(file, picture);
-  }
-  columns_ = roi.width();
-  rows_ = roi.height();
+  const PictureFile picture = read_picture_file(file);
+  columns_ = static_cast<int>(picture.width);
+  rows_ = static_cast<int>(picture.height);
   columns_per_pixel_ = static_cast<double>(columns_) / width;
   rows_per_pixel_ = static_cast<double>(rows_) / height;
 
-  const std::size_t colors = channels >= 3 ? 3 : 1;
-  pixels_.reserve(roi.npixels() * 3);
-  for (std::size_t first = 0; first < values.size(); first += channels) {
+  pixels_.reserve(picture.width * picture.height * 3);
+  for (std::size_t first = 0; first < picture.size(); first += picture.channels) {
     for (std::size_t color = 0; color < 3; ++color) {
-      const float value = values[first + std::min(color, colors - 1)];
+      const float value = picture.values[first + std::min(color, picture.channels - 1)];
       const float usable = std::isfinite(value) && value > 0.0F ? value : 0.0F;
-      pixels_.push_back(encoded ? srgb_to_linear(usable) : usable);
+      pixels_.push_back(picture.encoded ? srgb_to_linear(usable) : usable);
     }
   }
 }
