@@ -19,6 +19,10 @@ namespace fs = std::filesystem;
   throw std::runtime_error(file + ": " + reason);
 }
 
+[[noreturn]] void throw_error(int reason) {
+  throw std::runtime_error(std::generic_category().message(reason));
+}
+
 std::string last_error() { return std::generic_category().message(errno); }
 
 /// What a chain of links names at last, whether it exists or not.
@@ -81,6 +85,15 @@ class Unfinished {
 
   [[nodiscard]] std::string name() const { return path_.string(); }
 
+  /// Some disks tell only here that they are full.
+  void reach_disk() const {
+    const int file = open(path_.c_str(), O_WRONLY | O_CLOEXEC);
+    const bool failed = file < 0 || (fsync(file) != 0 && errno != EINVAL);
+    const int reason = errno;
+    if (file >= 0) close(file);
+    if (failed) throw_error(reason);
+  }
+
   void take_place_of(const fs::path& target) {
     fs::rename(path_, target);
     path_.clear();
@@ -90,15 +103,10 @@ class Unfinished {
   fs::path path_;
 };
 
-}  // namespace
-
-void write_whole(const std::string& file, const std::function<void(const std::string&)>& write) {
-  const Target target(file);
+/// Runs `work`, whose errors then name the file.
+void naming(const std::string& file, const std::function<void()>& work) {
   try {
-    if (target.device) return write(file);
-    Unfinished unfinished(file, target);
-    write(unfinished.name());
-    unfinished.take_place_of(target.path);
+    work();
   } catch (const std::bad_alloc&) {
     throw;  // says nothing of the file
   } catch (const std::exception& reason) {
@@ -108,9 +116,42 @@ void write_whole(const std::string& file, const std::function<void(const std::st
   }
 }
 
-void check_writable(const std::string& file) {
+}  // namespace
+
+void write_whole(const std::string& file, const std::function<void(const std::string&)>& write) {
   const Target target(file);
-  if (!target.device) Unfinished(file, target);
+  naming(file, [&] {
+    if (target.device) return write(file);
+    Unfinished unfinished(file, target);
+    write(unfinished.name());
+    unfinished.reach_disk();
+    unfinished.take_place_of(target.path);
+  });
+}
+
+void check_writable(const std::string& file, const std::function<void(const std::string&)>& trial) {
+  const Target target(file);
+  if (target.device) return;
+  naming(file, [&] {
+    const Unfinished unfinished(file, target);
+    if (trial) trial(unfinished.name());
+  });
+}
+
+void write_bytes(const std::string& name, std::string_view bytes) {
+  const int file = open(name.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (file < 0) throw_error(errno);
+  int reason = 0;
+  while (!bytes.empty() && reason == 0) {
+    const ssize_t written = write(file, bytes.data(), bytes.size());
+    if (written >= 0) {
+      bytes.remove_prefix(static_cast<std::size_t>(written));
+    } else if (errno != EINTR) {
+      reason = errno;
+    }
+  }
+  if (close(file) != 0 && reason == 0) reason = errno;
+  if (reason != 0) throw_error(reason);
 }
 
 void make_folder(const std::string& folder) {

@@ -30,7 +30,8 @@ void write_picture(const std::string& file, const Picture& picture, const JpegSe
 
 /// Says before the work what write_picture() would say after it of a picture of that size.
 /// \throws std::runtime_error naming the file and the reason.
-void check_picture(const std::string& file, std::size_t width, std::size_t height);
+void check_picture(const std::string& file, std::size_t width, std::size_t height,
+                   std::size_t channels);
 
 /// \throws std::runtime_error naming the file when a JPEG file cannot be of that size.
 void check_jpeg_size(const std::string& file, std::size_t width, std::size_t height);

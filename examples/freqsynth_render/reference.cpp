@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "reference.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <random>
@@ -10,10 +11,21 @@
 #include "sampling.h"
 #include "scenes/random.h"
 
-Picture render_reference(const scenes::Scene& scene, std::size_t width, std::size_t height,
-                         std::size_t channels, std::size_t samples, std::uint64_t seed,
-                         Averaging averaging, freqsynth::ThreadPool& pool,
-                         const std::function<void(double)>& progress) {
+namespace {
+
+/// Rows between two tellings of progress: enough for all threads, but not many samples.
+std::size_t rows_together(const freqsynth::ThreadPool& pool, std::size_t samples_per_row) {
+  constexpr std::size_t enough = std::size_t{1} << 16;  // for each thread
+  return pool.concurrency() * std::clamp<std::size_t>(enough / samples_per_row, 1, 8);
+}
+
+}  // namespace
+
+std::pair<Picture, std::size_t> render_reference(const scenes::Scene& scene, std::size_t width,
+                                                 std::size_t height, std::size_t channels,
+                                                 std::size_t samples, std::uint64_t seed,
+                                                 Averaging averaging, freqsynth::ThreadPool& pool,
+                                                 const std::function<bool(double)>& progress) {
   const bool display = averaging == Averaging::display;
   const freqsynth::DisplayEncoding encoding;
   Picture picture{width, height, channels, std::vector<float>(width * height * channels), display};
@@ -50,10 +62,12 @@ Picture render_reference(const scenes::Scene& scene, std::size_t width, std::siz
     }
   };
   // A few rows at a time, so that progress can be told in between.
-  const std::size_t rows_together = 8 * pool.concurrency();
-  for (; row_begin < height; row_begin += rows_together) {
-    pool.execute(std::min(rows_together, height - row_begin), freqsynth::TaskRef(render_row));
-    progress(static_cast<double>(row_begin) / static_cast<double>(height));
+  bool goes_on = true;
+  while (row_begin < height && goes_on) {
+    const std::size_t rows = std::min(rows_together(pool, width * samples), height - row_begin);
+    pool.execute(rows, freqsynth::TaskRef(render_row));
+    row_begin += rows;
+    goes_on = progress(static_cast<double>(row_begin) / static_cast<double>(height));
   }
-  return picture;
+  return {std::move(picture), row_begin};
 }

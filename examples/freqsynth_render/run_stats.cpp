@@ -17,6 +17,8 @@ const char* name_of(freqsynth::StopReason reason) {
       return "samples";
     case freqsynth::StopReason::threshold:
       return "target";
+    case freqsynth::StopReason::cancelled:
+      return "interrupted";
     default:
       return "exhausted";
   }

@@ -14,6 +14,7 @@
 #include "freqsynth/basis/sample_sequence.h"
 #include "freqsynth/engine/thread_pool.h"
 #include "freqsynth/freqsynth.h"
+#include "interrupt.h"
 #include "picture.h"
 #include "progress_bar.h"
 #include "run_stats.h"
@@ -123,22 +124,17 @@ class Synthesis {
         engine_(settings_of(options, scene)),
         pool_(options.threads) {}
 
-  void run() {
-    for (const double stop : stops_) {
-      const freqsynth::StopReason reason = run_to(stop);
-      const freqsynth::FrequencyImage image = image_of(engine_, options_);
-      if (!options_.output.empty() && stop == options_.samples_per_pixel) {
-        write_output(image, reason);
-      }
-      const auto frame = std::find(frame_rates.begin(), frame_rates.end(), stop);
-      if (!options_.frames.empty() && frame != frame_rates.end()) {
-        frames_.push_back(picture_of(image, options_, 1));
-        write_picture(frame_name(options_, static_cast<std::size_t>(frame - frame_rates.begin())),
-                      frames_.back());
-      }
+  /// \return whether it came to its end, and was not interrupted
+  bool run() {
+    bool interrupted = false;
+    for (std::size_t i = 0; i < stops_.size() && !interrupted; ++i) {
+      reason_ = run_to(stops_[i]);
+      interrupted = reason_ == freqsynth::StopReason::cancelled;
+      write_at(stops_[i], interrupted);
     }
     if (!frames_.empty()) write_picture(contact_sheet_name(options_), contact_sheet(frames_, 4));
     tell_bad_samples();
+    return !interrupted;
   }
 
  private:
@@ -158,7 +154,7 @@ class Synthesis {
       } else {
         bar_.count(samples_per_pixel(options_, engine_.stats()));
       }
-      return true;
+      return noted_interrupt() == 0;
     };
     const auto run = [&](auto&& values) {
       return engine_.run(values, {.samples_per_pixel = stop}, pool_, progress);
@@ -178,17 +174,43 @@ class Synthesis {
     return report.reason;
   }
 
-  void write_output(const freqsynth::FrequencyImage& image, freqsynth::StopReason reason) {
-    if (options_.direct) {
+  /// What is due at `stop` samples per pixel. Of a run that was interrupted before, that is the
+  /// picture that was still to come, but no frame: its name would be wrong.
+  void write_at(double stop, bool interrupted) {
+    const bool last = interrupted || stop == stops_.back();
+    const bool output = options_.output.empty()
+                            ? last
+                            : stop == options_.samples_per_pixel ||
+                                  (interrupted && stop < options_.samples_per_pixel);
+    const auto frame = std::find(frame_rates.begin(), frame_rates.end(), stop);
+    const bool is_frame = !options_.frames.empty() && frame != frame_rates.end() && !interrupted;
+    if (!output && !is_frame) return;
+    const freqsynth::FrequencyImage image = image_of(engine_, options_);
+    if (output) write_output(image);
+    if (!is_frame) return;
+    frames_.push_back(picture_of(image, options_, 1));
+    write_picture(frame_name(options_, static_cast<std::size_t>(frame - frame_rates.begin())),
+                  frames_.back());
+  }
+
+  /// The picture, its density and the figures, as far as they are wanted. Before the first choice
+  /// of blocks is sampled there is no picture, and an older one stays.
+  void write_output(const freqsynth::FrequencyImage& image) {
+    const bool has_picture =
+        reason_ != freqsynth::StopReason::cancelled || engine_.stats().waves > 0;
+    if (!has_picture) std::fprintf(stderr, "freqsynth_render: too early for a picture\n");
+    if (has_picture && options_.direct) {
       write_direct(options_, image);
-    } else {
+    } else if (has_picture && !options_.output.empty()) {
       write_picture(options_.output, picture_of(image, options_, options_.scale),
                     {options_.quality, options_.subsampling});
     }
     seconds_.wall =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
-    if (!options_.density.empty()) write_picture(options_.density, density_of(image));
-    if (!options_.stats.empty()) write_stats(options_, engine_.stats(), reason, seconds_);
+    if (has_picture && !options_.density.empty()) {
+      write_picture(options_.density, density_of(image));
+    }
+    if (!options_.stats.empty()) write_stats(options_, engine_.stats(), reason_, seconds_);
   }
 
   void tell_bad_samples() const {
@@ -207,17 +229,21 @@ class Synthesis {
   freqsynth::ThreadPool pool_;
   ProgressBar bar_;
   Seconds seconds_;
+  freqsynth::StopReason reason_ = freqsynth::StopReason::samples;
   std::vector<Picture> frames_;
 };
 
 }  // namespace
 
-void synthesize(const Options& options, const scenes::Scene& scene) {
-  Synthesis(options, scene).run();
+bool synthesize(const Options& options, const scenes::Scene& scene) {
+  return Synthesis(options, scene).run();
 }
 
 void prepare_frames(const Options& options) {
+  const std::size_t channels = options.gray ? 1 : 3;
   make_folder(options.frames);
-  check_picture(frame_name(options, 0), options.width, options.height);
-  check_picture(contact_sheet_name(options), options.width, options.height);
+  for (std::size_t frame = 0; frame < frame_rates.size(); ++frame) {
+    check_picture(frame_name(options, frame), options.width, options.height, channels);
+  }
+  check_picture(contact_sheet_name(options), options.width, options.height, channels);
 }
