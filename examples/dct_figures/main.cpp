@@ -96,11 +96,26 @@ std::optional<Options> parse_options(int argc, const char** argv) {
   return options;
 }
 
+constexpr std::array<std::size_t, 8> numbers_of_terms{64, 36, 21, 15, 10, 6, 3, 1};
+
+std::string terms_name(const std::string& folder, std::size_t terms) {
+  return folder + (terms < 10 ? "/figure_2_terms_0" : "/figure_2_terms_") + std::to_string(terms) +
+         ".png";
+}
+
+/// Makes the folder, and sees that all figures can be written there.
+void prepare_folder(const std::string& folder) {
+  make_folder(folder);
+  for (const std::size_t terms : numbers_of_terms) check_writable(terms_name(folder, terms));
+  for (const char* const name : {"/figure_2", "/figure_3", "/figure_4", "/qualities"}) {
+    check_writable(folder + name + ".png");
+  }
+}
+
 /// Figure 2: the first terms in zig-zag order only.
 void show_terms(freqsynth::FrequencyImage image, const std::string& folder) {
-  constexpr std::array<std::size_t, 8> numbers{64, 36, 21, 15, 10, 6, 3, 1};
   std::vector<Picture> pictures;
-  for (const std::size_t terms : numbers) {
+  for (const std::size_t terms : numbers_of_terms) {
     for (std::size_t block = 0; block < image.blocks_x() * image.blocks_y(); ++block) {
       for (std::size_t channel = 0; channel < image.channels(); ++channel) {
         std::ranges::fill(
@@ -110,8 +125,7 @@ void show_terms(freqsynth::FrequencyImage image, const std::string& folder) {
       }
     }
     pictures.insert(pictures.begin(), picture_of(image));
-    const std::string name = terms < 10 ? "/figure_2_terms_0" : "/figure_2_terms_";
-    write_picture(folder + name + std::to_string(terms) + ".png", pictures.front());
+    write_picture(terms_name(folder, terms), pictures.front());
   }
   write_picture(folder + "/figure_2.png", contact_sheet(pictures, 4));
 }
@@ -167,7 +181,7 @@ int main(int argc, const char** argv) {
     const std::optional<Options> options = parse_options(argc, argv);
     if (!options) return 0;
     const auto [image, from_file] = read_coefficients(options->picture, options->pixels);
-    make_folder(options->folder);
+    prepare_folder(options->folder);
     show_terms(image, options->folder);
     show_magnitudes(image, options->gain, options->folder);
     show_masking(options->bits, options->seed, options->folder);
@@ -181,6 +195,7 @@ int main(int argc, const char** argv) {
         options->picture.c_str(), image.width(), image.height(),
         from_file ? "the file's own coefficients" : "coefficients of its pixels", options->gain,
         options->bits);
+    if (std::fflush(stdout) != 0) throw std::runtime_error("standard output: cannot be written");
     return 0;
   } catch (const UsageError& error) {
     std::fprintf(stderr, "dct_figures: %s\nusage: %s\n", error.what(), usage_line);

@@ -4,7 +4,9 @@
 #include <OpenImageIO/argparse.h>
 
 #include <array>
+#include <cstdio>
 #include <limits>
+#include <stdexcept>
 #include <string_view>
 
 #include "scenes/scene.h"
@@ -168,6 +170,13 @@ std::optional<Options> parse_options(int argc, const char** argv) {
   if (parser.parse_args(argc, argv) < 0) throw UsageError(parser.geterror());
   if (texts.help) {
     parser.print_help();
+    std::puts(
+        "\nFiles are written whole or not at all. SIGINT (Ctrl-C) and SIGTERM end the run early: "
+        "what "
+        "there is\nis written, and the exit code is 130 or 143; a second one ends at once. Exit "
+        "code "
+        "1: it failed;\n2: wrong options.");
+    if (std::fflush(stdout) != 0) throw std::runtime_error("standard output: cannot be written");
     return std::nullopt;
   }
   read_method(texts, options);

@@ -23,6 +23,21 @@ size_of() {
 "$renderer" --scene chess --size 61x45 -o picture.jpg
 "$renderer" --scene zoneplate --size 3x2 -o tiny.png
 
+check_damaged() {
+  local file pictures=()
+  for file in "$@"; do
+    if [[ $file == -- ]]; then break; fi
+    pictures+=("$file")
+  done
+  shift $((${#pictures[@]} + 1))
+  for file in "${pictures[@]}"; do
+    for damage in cut_short huge; do
+      "$damage" "$file" || continue
+      expect_failure 1 "$damage.${file##*.}" "$damage.${file##*.}" "$@"
+    done
+  done
+}
+
 # What is said on a wrong command line: the option, its value, a usage line.
 expect_failure 2 "usage: dct_figures"
 expect_failure 2 "usage: dct_figures" picture.png
@@ -43,6 +58,22 @@ timeout 60 "$program" /dev/zero -o wrong >said 2>&1 || status=$?
 [[ $status -eq 1 ]] || fail "/dev/zero: exit code $status"
 grep -qF "/dev/zero: not a regular file" said || fail "/dev/zero: says $(cat said)"
 [[ ! -e wrong ]] || fail "a refused command made a folder"
+
+# Where the figures go is looked at before the first is written; a full disk leaves what was there.
+mkdir -p taken/qualities.png
+expect_failure 1 "taken/qualities.png: is a folder" picture.png -o taken
+[[ $(ls -A taken) == qualities.png ]] || fail "figures are written before all can be"
+mkdir full
+echo "an older figure" >full/figure_2_terms_64.png
+(
+  trap '' XFSZ
+  ulimit -f 1
+  expect_failure 1 "full/figure_2_terms_64.png" picture.png -o full
+)
+[[ $(cat full/*) == "an older figure" ]] || fail "a full disk lost an older figure"
+check_damaged picture.png picture.jpg linear.exr -- -o wrong
+check_damaged picture.jpg -- --pixels -o wrong
+[[ ! -e wrong ]] || fail "a damaged picture made a folder"
 
 # All figures, in the sizes that follow from the picture's.
 for input in picture.png gray.png linear.exr picture.jpg; do

@@ -73,6 +73,19 @@ expect_refusal "nowhere/a.png" -o b.png --density nowhere/a.png
 expect_refusal "a.nosuchformat" -o a.png --density a.nosuchformat
 expect_refusal "said" -o a.png --frames said
 expect_refusal "taken/contact_sheet.png: is a folder" --frames taken
+"$program" "${small[@]}" -o whole.png
+"$program" "${small[@]}" -o whole.jpg
+"$program" "${small[@]}" -o whole.exr
+for picture in whole.png whole.jpg whole.exr; do
+  for damage in cut_short huge; do
+    "$damage" "$picture" || continue
+    expect_refusal "$damage.${picture##*.}: " -o a.png --scene "image:$damage.${picture##*.}"
+  done
+done
+huge whole.jpg
+expect_refusal "huge.jpg: says that it has 65500 x 65500 pixels" -o a.png --scene image:huge.jpg
+expect_refusal "a.sgi" -o a.sgi --scale 32
+expect_refusal "a.webp: 16384 x 16384 pixels" -o a.webp --scale 8
 expect_refusal "a.jpg: 65536 x 65536 pixels" -o a.jpg --scale 32
 expect_refusal "nowhere/a.png" --reference 4096 -o nowhere/a.png
 expect_refusal "/dev/zero" --scene image:/dev/zero -o a.png
@@ -117,7 +130,7 @@ for ((i = 0; i < 8; ++i)); do
   cmp shared.png expected.png || fail "two runs wrote one file"
 done
 # A full disk leaves the old picture, and nothing else.
-for ending in png jpg exr pfm tif; do
+for ending in png jpg exr pfm tif sgi; do
   cp expected.png "full.$ending"
   (
     trap '' XFSZ
@@ -126,6 +139,27 @@ for ending in png jpg exr pfm tif; do
   )
   cmp "full.$ending" expected.png || fail "a full disk lost the older full.$ending"
 done
+# A disk that is really full, where one may be made.
+mkdir disk
+if mount -t tmpfs -o size=64k tmpfs disk 2>/dev/null; then
+  trap 'umount disk' EXIT
+  head -c 61000 /dev/zero >disk/filler
+  for ending in png jpg exr pfm tif sgi ppm json; do
+    echo "older" >"disk/x.$ending"
+    output=(-o "disk/x.$ending")
+    [[ $ending != json ]] || output=(-o ok.png --stats disk/x.json)
+    if [[ $ending == json ]]; then head -c 9000 /dev/zero >>disk/filler 2>/dev/null || true; fi
+    expect_failure 1 "disk/x.$ending: " --size 200x200 --scene fan "${output[@]}"
+    grep -q "^freqsynth_render: " said || fail "$ending: does not name itself: $(cat said)"
+    [[ $(cat "disk/x.$ending") == older ]] || fail "a full disk lost the older x.$ending"
+    rm "disk/x.$ending"
+  done
+  [[ $(ls -A disk) == filler ]] || fail "a full disk keeps unfinished files"
+  umount disk
+  trap - EXIT
+else
+  echo "no disk could be mounted: not tried when it is full"
+fi
 [[ -z $(find . -mindepth 1 -name '.*') ]] || fail "unfinished files are left"
 
 # All formats, in the size that was asked for.
@@ -214,5 +248,34 @@ fi
 [[ $(find frames -name '?_spp_*.png' | wc -l) -eq 8 ]] || fail "not eight frames"
 [[ -s frames/contact_sheet.png ]] || fail "no contact sheet"
 "$program" --scene image:picture.png --size 40x40 -o again.png
+
+# Signals end a run of hours within seconds, and what there is is written.
+# interrupt SIGNAL ARGUMENTS...
+interrupt() {
+  local signal=$1 status=0 begin
+  shift
+  "$program" --size 256x256 "$@" >said 2>&1 &
+  sleep 2
+  begin=$SECONDS
+  kill -"$signal" $!
+  wait $! || status=$?
+  [[ $status -eq $((128 + $(kill -l "$signal"))) ]] || fail "$signal: exit code $status: $(cat said)"
+  [[ $((SECONDS - begin)) -le 20 ]] || fail "$signal: took $((SECONDS - begin)) s"
+  grep -q "interrupted" said || fail "$signal: says $(cat said)"
+}
+interrupt INT --spp 4096 -o stopped.png --density stopped_density.png --stats stopped.json
+grep -q '"ended_by": "interrupted"' stopped.json || fail "the figures do not say it"
+interrupt TERM --spp 4096 -o stopped.jpg
+interrupt INT --reference 100000 -o stopped.exr --stats stopped_reference.json
+grep -q '"ended_by": "interrupted"' stopped_reference.json || fail "the figures do not say it"
+for picture in stopped.png stopped_density.png stopped.jpg stopped.exr; do
+  "$program" --scene "image:$picture" --size 40x40 -o again.png || fail "$picture is not whole"
+done
+if [[ -s direct.jpg ]]; then
+  interrupt TERM --spp 4096 --direct -o stopped_direct.jpg
+  [[ $(decode stopped_direct.jpg | head -n 2 | tail -n 1) == "256 256" ]] || fail "--direct: not whole"
+fi
+interrupt INT --spp 4096 -o late.png --frames late
+[[ -s late.png && -s late/contact_sheet.png && -s late/1_spp_1_64.png ]] || fail "frames are lost"
 [[ -z $(find . -mindepth 1 -name ".*") ]] || fail "unfinished files are left"
 echo "freqsynth_render: all as expected"
