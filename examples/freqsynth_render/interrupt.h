@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// Ctrl-C ends the work, not the program: what there is by then is written.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// Pictures from files of any format that OpenImageIO reads, which may be damaged.
 #pragma once
