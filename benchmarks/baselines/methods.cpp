@@ -8,6 +8,7 @@
 #include "alpha_trimmed.h"
 #include "dippe_wold.h"
 #include "energy_preserving.h"
+#include "low_discrepancy.h"
 #ifdef FREQSYNTH_BASELINES_OPENCV
 #include "opencv_fsr.h"
 #endif
@@ -31,6 +32,10 @@ std::vector<Method> make_methods() {
       {"uniform-box", "regular grid, mean of the pixel", "Whitted 1980",
        supersample(false, PixelFilter::box)},
       {"jittered-box", "jittered grid, mean of the pixel", "Cook 1986", jittered_box},
+      {"rotated-grid", "the same rank-1 lattice in each pixel, mean of the pixel",
+       "Korobov 1959, Akenine-Moller and Strom 2003", rotated_grid},
+      {"sobol-box", "Sobol points, Owen-scrambled in each pixel, mean of the pixel",
+       "Sobol 1967, Owen 1995", sobol_box},
       {"jittered-tent", "jittered grid, weighted average, tent 2 pixels wide", "Cook 1986",
        supersample(true, PixelFilter::tent)},
       {"jittered-gaussian", "jittered grid, weighted average, Gaussian 3 pixels wide", "Cook 1986",

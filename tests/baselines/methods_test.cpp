@@ -45,10 +45,10 @@ TEST(Methods, HaveTheNamesThatOthersRelyOn) {
   const std::vector<std::string> known = names();
   const std::set<std::string> distinct(known.begin(), known.end());
   EXPECT_EQ(distinct.size(), known.size());
-  for (const char* name :
-       {"uniform-box", "jittered-box", "jittered-tent", "jittered-gaussian", "jittered-mitchell",
-        "whitted", "two-level-box", "two-level-multistage", "painter-sloan", "dippe-wold",
-        "jittered-alpha-trimmed", "jittered-energy-preserving"}) {
+  for (const char* name : {"uniform-box", "jittered-box", "rotated-grid", "sobol-box",
+                           "jittered-tent", "jittered-gaussian", "jittered-mitchell", "whitted",
+                           "two-level-box", "two-level-multistage", "painter-sloan", "dippe-wold",
+                           "jittered-alpha-trimmed", "jittered-energy-preserving"}) {
     EXPECT_TRUE(distinct.contains(name)) << name;
   }
 }
@@ -134,7 +134,8 @@ TEST_P(EachMethod, TheSeedMovesSamplesUnlessTheyAreRegular) {
   const Radiance position = grey([](double x, double y) { return std::sin(9 * x + 7 * y) + 1; });
   const Rendering first = render(position, job_at(37, 21, 3, 1));
   const Rendering second = render(position, job_at(37, 21, 3, 2));
-  const bool regular = GetParam() == "uniform-box" || GetParam() == "whitted";
+  const std::set<std::string> regular_ones{"uniform-box", "rotated-grid", "whitted"};
+  const bool regular = regular_ones.contains(GetParam());
   EXPECT_EQ(first.pixels == second.pixels, regular);
 }
 
@@ -182,8 +183,9 @@ TEST_P(EachMethod, PicturesOfFewSamplesAreFiniteAndRoughlyRight) {
 /// The systems that estimate the plain mean of a pixel.
 class BoxMethod : public EachMethod {};
 INSTANTIATE_TEST_SUITE_P(Baselines, BoxMethod,
-                         testing::Values("uniform-box", "jittered-box", "whitted", "two-level-box",
-                                         "two-level-multistage", "painter-sloan"),
+                         testing::Values("uniform-box", "jittered-box", "rotated-grid", "sobol-box",
+                                         "whitted", "two-level-box", "two-level-multistage",
+                                         "painter-sloan"),
                          test_name);
 
 TEST_P(BoxMethod, ConvergesToTheMeanOfThePixel) {
