@@ -6,8 +6,10 @@
 #include <vector>
 
 #include "alpha_trimmed.h"
+#include "corner_subdivision.h"
 #include "dippe_wold.h"
 #include "energy_preserving.h"
+#include "fxaa.h"
 #include "low_discrepancy.h"
 #ifdef FREQSYNTH_BASELINES_OPENCV
 #include "opencv_fsr.h"
@@ -44,6 +46,11 @@ std::vector<Method> make_methods() {
        "Mitchell and Netravali 1988", supersample(true, PixelFilter::mitchell_netravali)},
       {"whitted", "squares divided by the contrast of their corners", "Whitted 1980",
        [](const Radiance& radiance, const Job& job) { return whitted(radiance, job); }},
+      {"pov-method-2", "pixels divided while the colours of corners differ, mean of corners",
+       "POV-Ray 1991",
+       [](const Radiance& radiance, const Job& job) { return corner_subdivision(radiance, job); },
+       // The corners of pixels are a few more than the pixels.
+       1.25},
       {"two-level-box", "more samples where contrast is high, mean of the pixel",
        "Cook 1986, Mitchell 1987",
        [](const Radiance& radiance, const Job& job) { return two_level(radiance, job); }},
@@ -58,6 +65,8 @@ std::vector<Method> make_methods() {
       {"dippe-wold", "jittered grid, filter width by local signal to noise ratio",
        "Dippe and Wold 1985",
        [](const Radiance& radiance, const Job& job) { return dippe_wold(radiance, job); }},
+      {"fxaa", "centred samples, then a filter that follows edges", "Lottes 2011",
+       [](const Radiance& radiance, const Job& job) { return fxaa(radiance, job); }, 1},
       {"jittered-alpha-trimmed", "jittered-box, then a filter that discards outliers",
        "Lee and Redner 1990",
        [=](const Radiance& radiance, const Job& job) {
