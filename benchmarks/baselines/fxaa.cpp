@@ -2,8 +2,9 @@
 #include "fxaa.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstddef>
+#include <vector>
 
 #include "supersampling.h"
 

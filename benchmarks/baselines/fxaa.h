@@ -3,6 +3,8 @@
 /// An edge filter of games.
 #pragma once
 
+#include <cstddef>
+
 #include "rendering.h"
 
 namespace baselines {

@@ -72,6 +72,11 @@ TEST(RotatedGrid, NoOtherLatticeIsSpreadMoreEvenly) {
   for (std::size_t i = 0; i < 4; ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       EXPECT_GT(std::hypot(four[i][0] - four[j][0], four[i][1] - four[j][1]), 0.55);
+      for (std::size_t k = 0; k < j; ++k) {
+        const double turn = (four[j][0] - four[i][0]) * (four[k][1] - four[i][1]) -
+                            (four[j][1] - four[i][1]) * (four[k][0] - four[i][0]);
+        EXPECT_GT(std::abs(turn), 0.1) << "three on a line";
+      }
     }
   }
   EXPECT_EQ(lattice_generator(5), 2u);
