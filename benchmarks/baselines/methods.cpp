@@ -6,8 +6,11 @@
 #include <vector>
 
 #include "alpha_trimmed.h"
+#include "corner_subdivision.h"
 #include "dippe_wold.h"
 #include "energy_preserving.h"
+#include "fxaa.h"
+#include "low_discrepancy.h"
 #ifdef FREQSYNTH_BASELINES_OPENCV
 #include "opencv_fsr.h"
 #endif
@@ -31,6 +34,10 @@ std::vector<Method> make_methods() {
       {"uniform-box", "regular grid, mean of the pixel", "Whitted 1980",
        supersample(false, PixelFilter::box)},
       {"jittered-box", "jittered grid, mean of the pixel", "Cook 1986", jittered_box},
+      {"rotated-grid", "the same rank-1 lattice in each pixel, mean of the pixel",
+       "Korobov 1959, Akenine-Moller and Strom 2003", rotated_grid},
+      {"sobol-box", "Sobol points, Owen-scrambled in each pixel, mean of the pixel",
+       "Sobol 1967, Owen 1995", sobol_box},
       {"jittered-tent", "jittered grid, weighted average, tent 2 pixels wide", "Cook 1986",
        supersample(true, PixelFilter::tent)},
       {"jittered-gaussian", "jittered grid, weighted average, Gaussian 3 pixels wide", "Cook 1986",
@@ -39,6 +46,11 @@ std::vector<Method> make_methods() {
        "Mitchell and Netravali 1988", supersample(true, PixelFilter::mitchell_netravali)},
       {"whitted", "squares divided by the contrast of their corners", "Whitted 1980",
        [](const Radiance& radiance, const Job& job) { return whitted(radiance, job); }},
+      {"pov-method-2", "pixels divided while the colours of corners differ, mean of corners",
+       "POV-Ray 1991",
+       [](const Radiance& radiance, const Job& job) { return corner_subdivision(radiance, job); },
+       // The corners of pixels are a few more than the pixels.
+       1.25},
       {"two-level-box", "more samples where contrast is high, mean of the pixel",
        "Cook 1986, Mitchell 1987",
        [](const Radiance& radiance, const Job& job) { return two_level(radiance, job); }},
@@ -53,6 +65,8 @@ std::vector<Method> make_methods() {
       {"dippe-wold", "jittered grid, filter width by local signal to noise ratio",
        "Dippe and Wold 1985",
        [](const Radiance& radiance, const Job& job) { return dippe_wold(radiance, job); }},
+      {"fxaa", "centred samples, then a filter that follows edges", "Lottes 2011",
+       [](const Radiance& radiance, const Job& job) { return fxaa(radiance, job); }, 1},
       {"jittered-alpha-trimmed", "jittered-box, then a filter that discards outliers",
        "Lee and Redner 1990",
        [=](const Radiance& radiance, const Job& job) {

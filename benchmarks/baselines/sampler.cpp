@@ -8,19 +8,18 @@
 namespace baselines {
 namespace {
 
-/// Far apart for seeds that are close: the finalizer of SplitMix64 (Steele, Lea and Flood 2014).
+std::size_t column_of(double position, std::size_t size) {
+  return std::min(static_cast<std::size_t>(std::max(position, 0.0)), size - 1);
+}
+
+}  // namespace
+
 std::uint64_t scatter(std::uint64_t seed) {
   seed += 0x9e3779b97f4a7c15U;
   seed = (seed ^ (seed >> 30)) * 0xbf58476d1ce4e5b9U;
   seed = (seed ^ (seed >> 27)) * 0x94d049bb133111ebU;
   return seed ^ (seed >> 31);
 }
-
-std::size_t column_of(double position, std::size_t size) {
-  return std::min(static_cast<std::size_t>(std::max(position, 0.0)), size - 1);
-}
-
-}  // namespace
 
 Rectangle image_plane(const Job& job) {
   return {0, 0, static_cast<double>(job.width), static_cast<double>(job.height)};

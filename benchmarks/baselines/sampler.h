@@ -56,6 +56,9 @@ class Random {
   std::mt19937_64 generator_;
 };
 
+/// Far apart for seeds that are close: the finalizer of SplitMix64 (Steele, Lea and Flood 2014).
+[[nodiscard]] std::uint64_t scatter(std::uint64_t seed);
+
 /// The radiance function of a job, called no more often than the job allows. Keeps count of the
 /// calls in each pixel and gives each its own id: the number of the call, plus an offset that
 /// depends on the seed.

@@ -7,6 +7,8 @@ BEGIN {
   FS = ","
   ours = "freqsynth"
   yardstick = "jittered-box"
+  # Another, of which the summary tells alone. A fixed pattern is the stronger one of the two.
+  fixed = "rotated-grid"
   # Columns of the measures, and their names.
   metrics = split("8 10 11 12 13", column, " ")
   split("RMSE|PSNR|relative MSE|SSIM|worst block", name, "|")
@@ -50,15 +52,15 @@ function sort_rates(    i, j, r) {
   }
 }
 
-# Samples per pixel at which the yardstick first has an error of e or less, by interpolation of the
+# Samples per pixel at which method m first has an error of e or less, by interpolation of the
 # logarithms. Sets bound to "<" or ">" when its curve does not reach there.
-function needed(s, e,    i, r, v, before, before_v) {
+function needed(s, m, e,    i, r, v, before, before_v) {
   bound = ""
   before = 0
   for (i = 1; i <= rates; ++i) {
     r = rate[i]
-    if (!known(s, yardstick, r)) continue
-    v = error(s, yardstick, r, 8)
+    if (!known(s, m, r)) continue
+    v = error(s, m, r, 8)
     if (v <= e) {
       if (!before) { bound = "<"; return r }
       if (v == e || v <= 0) return r
@@ -95,17 +97,19 @@ function file_name(s) {
   return s
 }
 
-function headline(    i, k, s, r, v, n, count, won, m, ratio, logs, compared, doubt, need) {
+function headline(    i, k, s, r, v, n, count, won, m, ratio, logs, compared, doubt, need,
+                  fixed_count) {
   print "| scene | samples | RMSE | jittered box needs | times as many | best other | ratio |"
   print "|---|---|---|---|---|---|---|"
-  for (k = 1; k <= 3; ++k) count[k] = won[k] = logs[k] = compared[k] = 0
+  for (k = 1; k <= 3; ++k) count[k] = fixed_count[k] = won[k] = logs[k] = compared[k] = 0
   for (i = 1; i <= scenes; ++i) {
     s = scene[i]
     for (k = 1; k <= 3; ++k) {
       r = wanted[k]
       if (!known(s, ours, r)) continue
       v = error(s, ours, r, 8)
-      n = needed(s, v)
+      if (known(s, fixed, r)) fixed_factor[k, ++fixed_count[k]] = needed(s, fixed, v) / r
+      n = needed(s, yardstick, v)
       need = known(s, yardstick, r) ? bound figure(n) : "-"
       m = best_other(s, r, 8)
       doubt = v < 3 * value[s, ours, r, 18] ? " (*)" : ""
@@ -133,8 +137,15 @@ function headline(    i, k, s, r, v, n, count, won, m, ratio, logs, compared, do
       rate_name(wanted[k]), won[k], compared[k]
     printf "  %.2f times that of the best other system (geometric mean over the scenes);\n",
       exp(logs[k] / compared[k])
-    printf "  the jittered box needs %.3g times as many samples (median; bounds count as they are).\n",
+    printf "  the jittered box needs %.3g times as many samples (median; bounds count as they are)",
       median(list, count[k])
+    if (fixed_count[k] == 0) {
+      print "."
+      continue
+    }
+    for (i = 1; i <= fixed_count[k]; ++i) list[i] = fixed_factor[k, i]
+    printf ";\n  the rotated grid, the same in each pixel, needs %.3g times as many.\n",
+      median(list, fixed_count[k])
   }
   # The greatest error relative to the yardstick's, from 1/4 sample per pixel on.
   worst = 0
