@@ -99,6 +99,7 @@ elseif(CASE STREQUAL "build_tree")
   build_consumer("-Dfreqsynth_DIR=${BUILD_DIR}" "-DEXPECTED_ROOT=${BUILD_DIR}")
 
 elseif(CASE STREQUAL "add_subdirectory")
+  set(CONFIG Debug)  # the quickest to build
   build_consumer("-DFREQSYNTH_SOURCE=${SOURCE_DIR}")
 
 elseif(CASE STREQUAL "shared")
