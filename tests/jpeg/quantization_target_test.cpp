@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "freqsynth/jpeg/quantization_target.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -220,6 +221,30 @@ TEST(QuantizationTarget, AFlatFirstImpressionIsNotTrusted) {
   const FrequencyImage image = engine.image();
   for (std::size_t b = 0; b < 16; ++b)
     EXPECT_GT(image.samples(b % 4, b / 4), 540u) << b << ": 684 or more";
+}
+
+// An edge along a row of samples: each of its samples says the same wrong thing.
+TEST(QuantizationTarget, ABlockThatCannotMeetItIsLeft) {
+  const auto edge = [](double x, double) { return x < 12 ? 0.0 : 255.0; };
+  for (const std::size_t most : {25u, 100u, 4096u}) {
+    SynthesisSettings settings{.width = 32, .height = 32, .channels = 1};
+    settings.quantization =
+        quantization_target({.luminance = scale_table(luminance_table(), 95)}, 1);
+    settings.quantization->most_samples = most;
+    Synthesizer engine(settings);
+    EXPECT_EQ(engine.run(edge, {}).reason, StopReason::threshold);
+    const FrequencyImage image = engine.image();
+    for (std::size_t b = 0; b < 16; ++b) {
+      // Its neighbours may add what they know of its border.
+      EXPECT_LE(image.samples(b % 4, b / 4), most + 2 * SampleSequence::longest_border_run) << b;
+    }
+    EXPECT_GE(image.samples(1, 1), most) << "the edge lies there";
+  }
+  SynthesisSettings settings{.width = 32, .height = 32, .channels = 1};
+  settings.quantization = quantization_target({}, 1);
+  settings.quantization->most_samples = 0;
+  EXPECT_THAT([&] { Synthesizer{settings}; }, testing::ThrowsMessage<std::invalid_argument>(
+                                                  testing::HasSubstr("most_samples is 0")));
 }
 
 }  // namespace

@@ -29,6 +29,11 @@ struct QuantizationTarget {
   /// a block.
   double tolerance = 0.25;
 
+  /// A block is done after so many samples, 64 per pixel, whatever its expected error: where they
+  /// do not suffice, as at edges that lie along rows of samples, more would not for long. At
+  /// least 1.
+  std::size_t most_samples = 4096;
+
   /// The most squared error of a block that is done, in squared steps.
   [[nodiscard]] double allowed_error() const {
     return tolerance * static_cast<double>(max_terms * steps.size()) / 12;

@@ -22,6 +22,7 @@ FREQSYNTH_INLINE void QuantizationTarget::validate(std::size_t channels) const {
                       "at least 1e-15");
     }
   }
+  if (most_samples == 0) detail::refuse("the quantization target's most_samples is 0");
   detail::require(detail::is_finite(tolerance) && tolerance > 0,
                   "the quantization target's tolerance", tolerance, "a finite number > 0");
 }

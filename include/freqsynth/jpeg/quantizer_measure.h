@@ -41,6 +41,7 @@ class QuantizerMeasure {
   template <Refiner R>
   [[nodiscard]] float priority(const BlockView<R>& view, std::uint32_t block, float factor) const {
     const std::uint32_t samples = view.blocks.samples(block);
+    if (samples >= target_.most_samples) return 0;
     const float error = std::min(error_of(view, block), most_priority);
     const auto allowed =
         static_cast<float>(std::min(target_.allowed_error(), double{most_priority}));
