@@ -28,13 +28,13 @@ TEST(UsualRange, IsAllButTheThreeHighestAndLowestOfSortedValues) {
       if (const auto displaced = range.add(value)) let_go.push_back(*displaced);
       seen.push_back(value);
     }
-    std::ranges::sort(seen);
+    std::sort(seen.begin(), seen.end());
     EXPECT_EQ(range.width(), seen[seen.size() - 4] - seen[3]);
     range.visit_kept([&](float value) { kept.push_back(value); });
     EXPECT_EQ(kept.size(), 8u);
     // None is lost, none comes twice.
     kept.insert(kept.end(), let_go.begin(), let_go.end());
-    std::ranges::sort(kept);
+    std::sort(kept.begin(), kept.end());
     EXPECT_EQ(kept, seen);
   }
 }
