@@ -35,11 +35,6 @@ baselines::Rendering synthesize(const baselines::Radiance& radiance, const basel
   settings.list.seed = job.seed;
   settings.noisy = job.noisy;
   if (estimate == Estimate::paper) settings.priority.measure = freqsynth::PriorityMeasure::change;
-  // Room for blocks with four times the average.
-  const double average =
-      64 * static_cast<double>(job.samples) / static_cast<double>(job.width * job.height);
-  settings.max_samples_per_block = static_cast<std::size_t>(
-      std::clamp<double>(4 * average, 4096, freqsynth::SampleSequence::max_size));
   freqsynth::Synthesizer engine(settings);
 
   baselines::Rendering result{job.width, job.height, {}, {}};
