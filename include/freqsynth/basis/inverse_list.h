@@ -115,16 +115,17 @@ struct InverseList::Chunk {
   return *chunks_[index / chunk_size].load(std::memory_order_relaxed);
 }
 
-inline const SequencePosition& InverseList::position(std::size_t index) const {
+[[gnu::always_inline]] inline const SequencePosition& InverseList::position(
+    std::size_t index) const {
   return chunk_of(index).positions[index % chunk_size];
 }
-inline std::size_t InverseList::terms(std::size_t index) const {
+[[gnu::always_inline]] inline std::size_t InverseList::terms(std::size_t index) const {
   return chunk_of(index).rest[index % chunk_size].terms;
 }
 inline std::span<const float, max_terms> InverseList::variances(std::size_t index) const {
   return chunk_of(index).rest[index % chunk_size].variances;
 }
-inline const detail::SampleRow& InverseList::row(std::size_t index) const {
+[[gnu::always_inline]] inline const detail::SampleRow& InverseList::row(std::size_t index) const {
   return chunk_of(index).rows[index % chunk_size];
 }
 
