@@ -15,6 +15,10 @@
 namespace freqsynth {
 namespace {
 
+using detail::Errors;
+using detail::guarded;
+using detail::Session;
+
 /// Compressed bytes go to a vector.
 struct Destination : jpeg_destination_mgr {
   std::vector<std::uint8_t> bytes;

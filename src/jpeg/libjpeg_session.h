@@ -13,7 +13,7 @@
 // After jpeglib.h, which it needs.
 #include <jerror.h>
 
-namespace freqsynth {
+namespace freqsynth::detail {
 
 /// libjpeg reports errors by a call that must not return. This one leaves by longjmp, for
 /// exceptions cannot be relied on to pass through C.
@@ -70,4 +70,4 @@ struct Session {
   j_common_ptr common() { return reinterpret_cast<j_common_ptr>(&info); }
 };
 
-}  // namespace freqsynth
+}  // namespace freqsynth::detail
