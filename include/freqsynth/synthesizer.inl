@@ -96,7 +96,8 @@ struct Synthesizer::Implementation {
     BlockStore<R> blocks(R(settings.shared_list, settings.channels, settings.channel_weights),
                          grid.size(), settings.max_samples_per_block);
     engines.emplace<Engine<R, M>>(grid, std::move(blocks), std::move(measure),
-                                  detail::factors_of(grid, settings.importance), settings.wave);
+                                  detail::factors_of(grid, settings.importance), settings.wave,
+                                  settings.priority.exploration);
   }
 
   template <class Variant, class Use>

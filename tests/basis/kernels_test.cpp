@@ -88,7 +88,8 @@ TEST(Kernels, AbsorbSampleIsItsFormula) {
       }
       for (std::size_t p = 0; p < row.pixel_count; ++p) {
         const std::size_t place = c * max_terms + row.pixels[p];
-        expect_within(after->sums[place], before->sums[place] + absorbed * row.pixel_weight, "sum");
+        expect_within(after->sums[place], before->sums[place] + absorbed * row.pixel_weights[p],
+                      "sum");
       }
       Number squared = row.change * innovation * innovation;
       Number residual = before->residuals[c] + row.residual * innovation * innovation;

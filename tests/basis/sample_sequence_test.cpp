@@ -19,7 +19,7 @@ using testing::ThrowsMessage;
 using Point = std::pair<double, double>;
 
 std::vector<SequencePosition> first_positions(std::size_t count, std::uint64_t seed = 0) {
-  SampleSequence sequence(seed);
+  SampleSequence sequence(seed, SamplePositions::lattice);
   std::vector<SequencePosition> positions;
   for (std::size_t i = 0; i < count; ++i) positions.push_back(sequence[i]);
   return positions;
@@ -209,7 +209,7 @@ TEST(SampleSequence, IsAFunctionOfItsSeed) {
 
 TEST(SampleSequence, GrowsAlikeInOneStepAndInMany) {
   const auto stepwise = points_of(first_positions(2000, 7));
-  SampleSequence at_once(7);
+  SampleSequence at_once(7, SamplePositions::lattice);
   EXPECT_EQ(at_once.size(), 0u);
   static_cast<void>(at_once[1999]);
   EXPECT_EQ(at_once.size(), 65u * 65u) << "whole levels";
@@ -251,7 +251,7 @@ TEST(SampleSequence, CornerAtIsTheIndexOfTheCorner) {
 }
 
 TEST(SampleSequence, LastPositionsCompleteTheFinestLattice) {
-  SampleSequence sequence;
+  SampleSequence sequence(0, SamplePositions::lattice);
   constexpr std::size_t edge = 1025;
   ASSERT_EQ(SampleSequence::max_size, edge * edge);
   std::vector<bool> seen(edge * edge);
@@ -267,7 +267,7 @@ TEST(SampleSequence, LastPositionsCompleteTheFinestLattice) {
 }
 
 TEST(SampleSequence, RefusesIndicesBeyondItsSize) {
-  SampleSequence sequence;
+  SampleSequence sequence(0, SamplePositions::lattice);
   EXPECT_THAT([&] { static_cast<void>(sequence[SampleSequence::max_size]); },
               ThrowsMessage<std::invalid_argument>(HasSubstr("1050625")));
   EXPECT_THROW(static_cast<void>(sequence[std::numeric_limits<std::size_t>::max()]),

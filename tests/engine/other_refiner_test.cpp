@@ -59,7 +59,7 @@ class MeanRefiner {
       if (own[2] > 1) change += weights_[c] * std::pow(difference / own[2], 2.0f);
       const detail::SampleRow& row = list_->row(n);
       for (std::size_t p = 0; p < row.pixel_count; ++p) {
-        state[c * max_terms + row.pixels[p]] += values[c] * row.pixel_weight;
+        state[c * max_terms + row.pixels[p]] += values[c] * row.pixel_weights[p];
       }
     }
     return change;

@@ -64,9 +64,9 @@ struct Absorption {
       *number = static_cast<float>(random.uniform(0, 1));
     }
     row.pixel_count = std::array<std::uint8_t, 3>{1, 2, 4}[random.below(3)];
-    row.pixel_weight = 1 / static_cast<float>(row.pixel_count);
     for (std::size_t p = 0; p < row.pixel_count; ++p) {
       row.pixels[p] = static_cast<std::uint8_t>(16 * p + random.below(16));
+      row.pixel_weights[p] = static_cast<float>(random.uniform(0, 1));
     }
     if (with_border) {
       border.step[terms] = 1;

@@ -26,29 +26,43 @@ inline double pixel_change(double amplitude, std::size_t term) {
   return amplitude / (amplitude_of_coefficient(term) * std::sqrt(double{max_terms}));
 }
 
-/// The pixels of the block that a position lies in, or on the border of, in equal shares. Beyond
-/// the block's own border lie the neighbour's pixels, which get theirs there.
+/// Pixels along one axis that get a share of a sample.
+struct TouchedPixels {
+  std::size_t first = 0, count = 0;
+  double shares[2] = {};
+};
+
+/// The pixels of the block that the interval of length `side` <= 1 around `centre` lies in, in
+/// pixels.
+inline TouchedPixels touched_pixels(double centre, double side) {
+  const double low = centre - side / 2, high = centre + side / 2;
+  TouchedPixels touched;
+  for (std::size_t pixel = 0; pixel < block_size; ++pixel) {
+    const auto left = static_cast<double>(pixel);
+    const double share = (std::min(high, left + 1) - std::max(low, left)) / side;
+    if (share <= 0) continue;
+    if (touched.count == 0) touched.first = pixel;
+    touched.shares[touched.count++] = share;
+  }
+  return touched;
+}
+
+/// A sample stands for the square around it that reaches to its neighbours, but for no more than
+/// the area of a pixel; each pixel of the block gets the share of the square that lies in it. What
+/// lies beyond the block's border falls to the neighbour's pixels, which get theirs there.
 inline void set_pixels(const SequencePosition& position, SampleRow& row) {
-  struct Touched {
-    std::size_t first = 0, count = 0;
-    float share = 1;
-  };
-  const auto touched = [](double s) {
-    const double x = s * block_size;
-    const double below = std::floor(x);
-    const auto pixel = static_cast<std::size_t>(below);
-    if (below != x) return Touched{pixel, 1, 1};
-    const std::size_t first = pixel > 0 ? pixel - 1 : 0;
-    const std::size_t end = pixel < block_size ? pixel + 1 : block_size;
-    return Touched{first, end - first, 0.5f};
-  };
-  const Touched columns = touched(position.s);
-  const Touched rows = touched(position.t);
-  row.pixel_weight = columns.share * rows.share;
+  // A little narrower than the distance to the neighbours, which is rounder than a square.
+  constexpr double reach = 0.85;
+  const double side = std::min(1.0, reach * double{position.spacing} * block_size);
+  const TouchedPixels columns = touched_pixels(position.s * block_size, side);
+  const TouchedPixels rows = touched_pixels(position.t * block_size, side);
   row.pixel_count = 0;
-  for (std::size_t y = rows.first; y < rows.first + rows.count; ++y) {
-    for (std::size_t x = columns.first; x < columns.first + columns.count; ++x) {
-      row.pixels[row.pixel_count++] = static_cast<std::uint8_t>(y * block_size + x);
+  for (std::size_t y = 0; y < rows.count; ++y) {
+    for (std::size_t x = 0; x < columns.count; ++x) {
+      const double share = rows.shares[y] * columns.shares[x];
+      row.pixel_weights[row.pixel_count] = static_cast<float>(share);
+      const std::size_t pixel = (rows.first + y) * block_size + columns.first + x;
+      row.pixels[row.pixel_count++] = static_cast<std::uint8_t>(pixel);
     }
   }
 }
@@ -70,7 +84,7 @@ struct InverseList::Builder {
   explicit Builder(const InverseListSettings& settings)
       : samples_per_term(settings.samples_per_term),
         most_terms(settings.max_terms),
-        sequence(settings.seed) {}
+        sequence(settings.seed, settings.positions) {}
 
   void build(Chunk& chunk, std::size_t index);
   void border(std::size_t terms, std::span<const double> gain, detail::SampleRow& row,

@@ -33,9 +33,9 @@ struct alignas(64) SampleRow {
   std::uint32_t terms = 0;            ///< terms in the fit while the sample is absorbed
   float change = 0;                   ///< mean squared pixel change caused by `gain`
   float residual = 0;                 ///< 1 - A . k: share of the innovation that remains
-  float pixel_weight = 0;             ///< share of the sample that each of its pixels gets
-  std::uint8_t pixel_count = 0;       ///< pixels of the block that the position touches: 1, 2 or 4
-  std::uint8_t pixels[4] = {};        ///< those pixels, row by row
+  float pixel_weights[4] = {};        ///< share of the sample that each of its pixels gets
+  std::uint8_t pixel_count = 0;  ///< pixels of the block that get a share of the sample, up to 4
+  std::uint8_t pixels[4] = {};   ///< those pixels, row by row
 };
 
 /// Absorbs one sample into the states of all channels of a block.

@@ -38,7 +38,7 @@ float absorb_sample(const SampleRow& row, float* states, float* sums, float* res
       (absorbed * Float8::load(row.rest + i)).add_to(state + i);
     }
     for (std::size_t p = 0; p < row.pixel_count; ++p) {
-      sums[c * max_terms + row.pixels[p]] += absorbed * row.pixel_weight;
+      sums[c * max_terms + row.pixels[p]] += absorbed * row.pixel_weights[p];
     }
     float squared = row.change * innovation * innovation;
     float residual = residuals[c] + row.residual * innovation * innovation;

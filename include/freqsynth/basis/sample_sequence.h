@@ -7,6 +7,13 @@
 /// one. A position on the block's own border is followed at once by its partner on the opposite
 /// border, so that level k is complete, a regular lattice of (2^k + 1)^2 points, after as many
 /// samples.
+///
+/// On that lattice whole columns of samples lie under each other, and edges along an axis and
+/// patterns that repeat with it are measured wrong however many samples there are. So by default
+/// the lattice is bent (SamplePositions::bent): by a smooth flow that preserves areas, so that it
+/// stays as even as it was, and along the borders the same on both sides. Points on a border are
+/// moved across it, too, by a little that is spread evenly along it; for one of the two blocks they
+/// lie beyond the border then, where the cosine terms continue as in a mirror.
 #pragma once
 
 #include <cstddef>
@@ -14,6 +21,7 @@
 #include <vector>
 
 #include "freqsynth/basis/config.h"
+#include "freqsynth/basis/list_settings.h"
 
 namespace freqsynth {
 
@@ -24,7 +32,9 @@ enum class BlockSide : std::uint8_t { interior, corner, left, right, top, bottom
 struct SequencePosition {
   double s = 0;  ///< horizontal place in the unit block, 0 = left border, 1 = right border
   double t = 0;  ///< vertical place in the unit block, 0 = top border, 1 = bottom border
-  BlockSide side = BlockSide::interior;  ///< where on the block it lies
+  /// Where on the block it lies. Positions on a side of a bent lattice lie beside the border, up to
+  /// SampleSequence::most_across away, or beyond it.
+  BlockSide side = BlockSide::interior;
   /// How many earlier positions lie on the same side. Partners on opposite sides have the same
   /// rank, so that "the k-th point of an edge" means the same to both blocks. For corners: 0..3 in
   /// the order (0,0) (1,1) (1,0) (0,1).
@@ -32,15 +42,18 @@ struct SequencePosition {
   /// Index of the same point as seen from the block across this border. Positions in the interior
   /// and the corners (which have three) are their own partner; see corner_at().
   std::uint32_t partner = 0;
-  /// Distance to the nearest earlier positions of the sequence, in units of the block's edge.
+  /// Distance to the nearest earlier positions of the sequence in units of the block's edge; on a
+  /// bent lattice about that.
   float spacing = 1;
 };
 
 /// The sequence itself: the same for the same seed, grown on demand. Not thread-safe while growing.
 class FREQSYNTH_API SampleSequence {
  public:
-  /// \param seed  of the random choices
-  explicit SampleSequence(std::uint64_t seed = 0) : seed_(seed) {}
+  /// \param seed       of the random choices
+  /// \param positions  where the samples lie
+  explicit SampleSequence(std::uint64_t seed = 0, SamplePositions positions = SamplePositions::bent)
+      : seed_(seed), kind_(positions) {}
 
   /// Position `index`; grows the sequence as far as needed (by whole levels, amortised O(1)). The
   /// reference is valid until the sequence grows again.
@@ -62,14 +75,19 @@ class FREQSYNTH_API SampleSequence {
   /// samples a block can get from its neighbours without one of its own.
   static constexpr std::size_t longest_border_run = 6;
 
+  /// How far at most positions lie from the border that they are on, in units of the block's edge.
+  static constexpr double most_across = 0.0375;
+
   /// Positions of the finest level that is kept: 1025 x 1025.
   static constexpr std::size_t max_size = std::size_t{1025} * 1025;
 
  private:
   void append_level();
   void append(double s, double t, float spacing);
+  void bend(SequencePosition& position) const;
 
   std::uint64_t seed_;
+  SamplePositions kind_;
   std::uint32_t level_ = 0;
   std::uint32_t ranks_[6] = {};  // positions so far on each BlockSide
   std::vector<SequencePosition> positions_;

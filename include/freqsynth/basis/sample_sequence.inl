@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <numbers>
 #include <string>
 
@@ -35,6 +36,36 @@ inline QuadNode node_of_visit(std::uint64_t visit, std::uint32_t level) {
     node.y = 2 * node.y + bottom[digit];
   }
   return node;
+}
+
+/// Displacement of a point of the unit block.
+struct Displacement {
+  double s = 0, t = 0;
+};
+
+/// A flow without sources, (d psi / dt, -d psi / ds) of
+///   psi = sin^2(pi s) g(t) - g(s) sin^2(pi t), g(x) = (sin(2 pi x + phase) - sin phase) a / 2 pi:
+/// areas are preserved, nothing crosses the border of the block, and opposite borders move alike.
+/// The phases keep points that mirror each other out of each other's rows and columns.
+inline Displacement flow(double s, double t) {
+  constexpr double pi = std::numbers::pi;
+  constexpr double amplitude = 0.06;
+  constexpr double phase_s = -0.3, phase_t = 0.3;
+  const auto bell = [](double x) { return std::sin(pi * x) * std::sin(pi * x); };
+  const auto wave = [](double x, double phase) {
+    return 0.5 * (std::sin(2 * pi * x + phase) - std::sin(phase));
+  };
+  return {amplitude *
+              (bell(s) * std::cos(2 * pi * t + phase_t) + wave(s, phase_s) * std::sin(2 * pi * t)),
+          amplitude * (-wave(t, phase_t) * std::sin(2 * pi * s) -
+                       bell(t) * std::cos(2 * pi * s + phase_s))};
+}
+
+/// Van der Corput's radical inverse in base 2, centred: in (-1/2, 1/2).
+inline double centred_radical_inverse(std::uint32_t number) {
+  double inverse = -0.5, digit = 0.5;
+  for (; number != 0; number >>= 1, digit /= 2) inverse += (number & 1) * digit;
+  return inverse + 0.5 * digit;
 }
 
 }  // namespace detail
@@ -102,7 +133,35 @@ FREQSYNTH_INLINE void SampleSequence::append(double s, double t, float spacing) 
     position.partner = t == 0 ? index + 1 : index - 1;
   }
   position.rank = ranks_[static_cast<std::size_t>(position.side)]++;
+  if (kind_ == SamplePositions::bent) bend(position);
   positions_.push_back(position);
+}
+
+/// Moves a position of the lattice to where it lies on the bent one. Corners stay.
+FREQSYNTH_INLINE void SampleSequence::bend(SequencePosition& position) const {
+  const detail::Displacement flow = detail::flow(position.s, position.t);
+  const double across = 4 * most_across * double{position.spacing} *
+                        detail::centred_radical_inverse(position.rank + 1);
+  // The last digits are left to no mathematics library.
+  constexpr double digits = 1 << 26;
+  const auto moved = [](double at, double by) { return at + std::round(by * digits) / digits; };
+  switch (position.side) {
+    case BlockSide::corner:
+      return;
+    case BlockSide::left:
+    case BlockSide::right:
+      position.s = moved(position.s, across);
+      position.t = moved(position.t, flow.t);
+      return;
+    case BlockSide::top:
+    case BlockSide::bottom:
+      position.s = moved(position.s, flow.s);
+      position.t = moved(position.t, across);
+      return;
+    default:
+      position.s = moved(position.s, flow.s);
+      position.t = moved(position.t, flow.t);
+  }
 }
 
 }  // namespace freqsynth

@@ -35,6 +35,9 @@ class BlockChoice {
   /// Whether more samples of a block are wanted at all.
   [[nodiscard]] bool wanted(std::uint32_t block) const { return factors_[block] > 0; }
 
+  /// Share of what is owed to every block that is owed to this one: its factor, at most 1.
+  [[nodiscard]] float share(std::uint32_t block) const { return std::min(factors_[block], 1.0f); }
+
   /// A block has taken in a sample, which changed it by `change`.
   void absorbed(const BlockView<R>& view, std::uint32_t block, float change) {
     measure_.absorbed(view, block, change);

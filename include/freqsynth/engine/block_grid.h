@@ -73,6 +73,13 @@ inline BlockGrid::Point BlockGrid::point(std::size_t block,
               (static_cast<double>(row(block)) + position.t) * block_size};
   const auto right = static_cast<double>(width);
   const auto bottom = static_cast<double>(height);
+  // Positions beside a border that is the image's, too, may lie beyond it.
+  if (point.x < 0) [[unlikely]] {
+    point.x = -point.x;
+  }
+  if (point.y < 0) [[unlikely]] {
+    point.y = -point.y;
+  }
   if (point.x > right) [[unlikely]] {
     point.x = detail::reflect(point.x, right);
   }

@@ -44,8 +44,9 @@ class Engine {
  public:
   /// \param factors      factor on the priority of each block of the grid
   /// \param wave         most blocks of a wave; 0: 1/32 of all blocks
+  /// \param exploration  see PrioritySettings::exploration
   Engine(const BlockGrid& grid, BlockStore<R> blocks, M measure, std::vector<float> factors,
-         std::size_t wave);
+         std::size_t wave, double exploration = 0);
 
   /// Sets when request() stops, from the next wave on. \throws like StopRule::validate().
   void set_stop(const StopRule& stop);
@@ -92,6 +93,8 @@ class Engine {
   std::optional<StopReason> prepare_wave();
   void reserve(std::size_t most);
   void choose(std::uint32_t block);
+  void choose_lagging(std::size_t most);
+  [[nodiscard]] bool lags(std::uint32_t block) const;
   void choose_least_sampled(std::size_t most);
   [[nodiscard]] StopReason reason(StopReason why) const;
   [[nodiscard]] bool asked_by_neighbour(std::uint32_t block, std::uint32_t index) const;
@@ -111,6 +114,11 @@ class Engine {
   Wave wave_;
   BlockSet touched_;  // blocks that the wave asks for, or that it has changed
   std::size_t wave_size_;
+  double exploration_;
+  double shares_ = 0;                   // of all blocks, see BlockChoice::share()
+  double least_ = 0;                    // samples that a block with a share of 1 must have by now
+  std::vector<std::uint32_t> lagging_;  // those with fewer, when that number grew last
+  std::size_t next_lagging_ = 0;
   StopRule stop_;
   SynthesisStats stats_;
   bool any_usable_ = false;  // whether there was a usable value

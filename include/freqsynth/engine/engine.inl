@@ -7,17 +7,22 @@ namespace freqsynth {
 
 template <Refiner R, BlockMeasure<R> M>
 Engine<R, M>::Engine(const BlockGrid& grid, BlockStore<R> blocks, M measure,
-                     std::vector<float> factors, std::size_t wave)
+                     std::vector<float> factors, std::size_t wave, double exploration)
     : grid_(grid),
       blocks_(std::move(blocks)),
       cache_(grid, blocks_.refiner().channels()),
       signal_(blocks_.refiner().channels()),
       choice_(std::move(measure), std::move(factors)),
       wave_(blocks_.refiner().channels()),
-      touched_(grid.size()) {
+      touched_(grid.size()),
+      exploration_(exploration) {
   const std::size_t most = std::max<std::size_t>(grid.size(), 1);
   wave_size_ = wave != 0 ? std::min(wave, most) : std::max<std::size_t>(most / 32, 1);
   stats_.blocks = grid.size();
+  for (std::uint32_t block = 0; block < grid.size(); ++block) {
+    shares_ += double{choice_.share(block)};
+  }
+  lagging_.reserve(grid.size());
   choice_.revise_all(view());
 }
 
@@ -57,6 +62,7 @@ std::optional<StopReason> Engine<R, M>::prepare_wave() {
   reserve(most);
   const auto threshold = static_cast<float>(
       std::min(stop_.aliasing_threshold * stop_.aliasing_threshold, double{most_priority}));
+  choose_lagging(most);
   while (wave_.size() < most && choice_.top_priority() > threshold) choose(choice_.take());
   if (!wave_.empty()) return std::nullopt;
   if (choice_.top_priority() < 0) return reason(StopReason::exhausted);
@@ -81,6 +87,35 @@ void Engine<R, M>::choose(std::uint32_t block) {
   const std::uint32_t index = blocks_.samples(block);
   if (!asked_by_neighbour(block, index)) wave_.add({block, index});
   touched_.add(block);
+}
+
+/// Whether a block has fewer samples than every block should have by now.
+template <Refiner R, BlockMeasure<R> M>
+bool Engine<R, M>::lags(std::uint32_t block) const {
+  return blocks_.samples(block) < least_ * double{choice_.share(block)} && !blocks_.full(block);
+}
+
+/// Chooses blocks that have stayed behind the others.
+template <Refiner R, BlockMeasure<R> M>
+void Engine<R, M>::choose_lagging(std::size_t most) {
+  if (exploration_ == 0 || shares_ == 0 || blocks_.untouched() != 0) return;
+  const double mean = static_cast<double>(stats_.absorbed) / shares_;
+  const double least = std::floor(std::pow(mean, exploration_));
+  // All blocks are looked at only when the number has grown: less than once in a sample of each.
+  if (least > least_) {
+    least_ = least;
+    next_lagging_ = 0;
+    lagging_.clear();
+    for (std::uint32_t block = 0; block < blocks_.size(); ++block) {
+      if (lags(block)) lagging_.push_back(block);
+    }
+  }
+  for (; wave_.size() < most && next_lagging_ < lagging_.size(); ++next_lagging_) {
+    const std::uint32_t block = lagging_[next_lagging_];
+    if (!lags(block)) continue;
+    choice_.take(block);
+    choose(block);
+  }
 }
 
 /// Chooses blocks that the threshold may not pass over yet.

@@ -44,6 +44,10 @@ struct PrioritySettings {
   double neighbours = 16;
   /// The same for the mean residuals of all blocks, so that no block is ever taken for flat.
   double image = 1;
+  /// No block stays behind the others for good, however flat it looks: when the blocks have m
+  /// samples on average, those with fewer than m^exploration come first. In [0, 1]; 0: never, 1:
+  /// all blocks get the same number of samples.
+  double exploration = 0.82;
 
   /// \throws std::invalid_argument naming the field and the value when out of range.
   FREQSYNTH_API void validate() const;

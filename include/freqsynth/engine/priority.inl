@@ -19,6 +19,8 @@ FREQSYNTH_INLINE void PrioritySettings::validate() const {
   up_to_most(uncertainty, "priority.uncertainty");
   up_to_most(neighbours, "priority.neighbours");
   up_to_most(image, "priority.image");
+  detail::require(detail::is_finite(exploration) && exploration >= 0 && exploration <= 1,
+                  "priority.exploration", exploration, "in [0, 1]");
   detail::require(detail::is_finite(decay) && decay >= 0 && decay < 1, "priority.decay", decay,
                   "in [0, 1)");
 }

@@ -42,10 +42,10 @@ FREQSYNTH_INLINE void PixelFinisher::advance(std::size_t samples) {
     const detail::SampleRow& row = list_->row(samples_);
     for (std::size_t p = 0; p < row.pixel_count; ++p) {
       const std::size_t pixel = row.pixels[p];
-      weights_[pixel] += row.pixel_weight;
+      weights_[pixel] += row.pixel_weights[p];
       float* sums = sums_.data() + pixel * max_terms;
       for (std::size_t i = 0; i < max_terms; ++i) {
-        sums[detail::zigzag_to_row_major[i]] += row.pixel_weight * (row.fit[i] + row.rest[i]);
+        sums[detail::zigzag_to_row_major[i]] += row.pixel_weights[p] * (row.fit[i] + row.rest[i]);
       }
     }
   }

@@ -64,7 +64,7 @@ FREQSYNTH_INLINE void LeastSquaresRefiner::start(float* state, float* sums, std:
     const detail::SampleRow& row = list_->row(j);
     for (std::size_t i = terms; i < max_terms; ++i) state[i] += value * (row.fit[i] + row.rest[i]);
     for (std::size_t p = 0; p < row.pixel_count; ++p) {
-      sums[row.pixels[p]] += value * row.pixel_weight;
+      sums[row.pixels[p]] += value * row.pixel_weights[p];
     }
   }
 }
