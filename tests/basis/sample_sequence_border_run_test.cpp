@@ -10,13 +10,12 @@
 namespace freqsynth {
 namespace {
 
-/// Most positions with a coordinate of 0 or 1 that follow each other.
+/// Most positions that are not in the interior and follow each other.
 std::size_t longest_run(std::uint64_t seed, std::size_t count) {
   SampleSequence sequence(seed);
   std::size_t run = 0, longest = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    const SequencePosition& position = sequence[i];
-    const bool on_border = position.s == 0 || position.s == 1 || position.t == 0 || position.t == 1;
+    const bool on_border = sequence[i].side != BlockSide::interior;
     run = on_border ? run + 1 : 0;
     longest = std::max(longest, run);
   }

@@ -17,7 +17,7 @@ namespace {
 using Values = std::vector<float>;
 
 std::vector<SequencePosition> positions_of_sequence(std::size_t count) {
-  SampleSequence sequence;
+  SampleSequence sequence(0, SamplePositions::lattice);
   std::vector<SequencePosition> positions;
   for (std::size_t i = 0; i < count; ++i) positions.push_back(sequence[i]);
   return positions;

@@ -46,7 +46,9 @@ TEST(StopRule, ThresholdLooksAtALatticeFirst) {
 
 TEST(StopRule, ThresholdWithItsLatticeFindsADot) {
   // On the lattice of 5 x 5, and nowhere near a corner.
-  Synthesizer engine(settings_of(64, 64));
+  SynthesisSettings settings = settings_of(64, 64);
+  settings.list.positions = SamplePositions::lattice;
+  Synthesizer engine(settings);
   engine.run(dot_at(20, 36), {.aliasing_threshold = 0.01});
   EXPECT_GT(engine.image().samples(2, 4), 50u) << "seen, and looked at: twice the lattice";
 }

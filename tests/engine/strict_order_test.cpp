@@ -65,8 +65,14 @@ class NaiveEngine {
 
   [[nodiscard]] Point next_point(std::size_t b) const {
     const SequencePosition& position = list_.position(blocks_[b].samples);
-    return {8 * (static_cast<double>(b % blocks_x_) + position.s),
-            8 * (static_cast<double>(b / blocks_x_) + position.t)};
+    // What lies beyond the image is asked where the mirror shows it.
+    const auto at = [](std::size_t block, double place, std::size_t blocks) {
+      const double point = std::abs(8 * (static_cast<double>(block) + place));
+      const auto size = static_cast<double>(8 * blocks);
+      return point > size ? 2 * size - point : point;
+    };
+    return {at(b % blocks_x_, position.s, blocks_x_),
+            at(b / blocks_x_, position.t, blocks_.size() / blocks_x_)};
   }
 
   void absorb(std::size_t b, float value) {
@@ -152,12 +158,14 @@ PrioritySettings paper(double weight, double uncertainty, double decay) {
   return {.weight = weight,
           .uncertainty = uncertainty,
           .decay = decay,
-          .measure = PriorityMeasure::change};
+          .measure = PriorityMeasure::change,
+          .exploration = 0};
 }
 
 /// Without the share of the whole image, which is as old as the block's last change.
 PrioritySettings residuals(double neighbours) {
-  return {.measure = PriorityMeasure::residual, .neighbours = neighbours, .image = 0};
+  return {
+      .measure = PriorityMeasure::residual, .neighbours = neighbours, .image = 0, .exploration = 0};
 }
 
 class StrictOrder : public testing::TestWithParam<PrioritySettings> {};

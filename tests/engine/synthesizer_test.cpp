@@ -54,6 +54,7 @@ TEST_P(FullLattice, AsksEveryPointOnce) {
   const std::size_t steps = std::size_t{1} << level;
   SynthesisSettings settings = settings_of(8 * blocks_x, 8 * blocks_y, 1, wave);
   settings.max_samples_per_block = (steps + 1) * (steps + 1);
+  settings.list.positions = SamplePositions::lattice;
   Synthesizer engine(settings);
   const auto points = helpers::asked_points(engine, StopRule{}, picture);
   EXPECT_EQ(engine.stopped(), StopReason::exhausted);
@@ -81,6 +82,7 @@ TEST_P(FullLattice, FitsEveryBlockToItsOwnSamples) {
   const std::size_t samples = ((std::size_t{1} << level) + 1) * ((std::size_t{1} << level) + 1);
   SynthesisSettings settings = settings_of(8 * blocks_x, 8 * blocks_y, 2, wave);
   settings.max_samples_per_block = samples;
+  settings.list.positions = SamplePositions::lattice;
   Synthesizer engine(settings);
   engine.run(
       [](double x, double y) {
@@ -88,7 +90,7 @@ TEST_P(FullLattice, FitsEveryBlockToItsOwnSamples) {
       },
       StopRule{});
   const FrequencyImage image = engine.image();
-  const InverseList list;
+  const InverseList list(settings.list);
   for (std::size_t y = 0; y < blocks_y; ++y) {
     for (std::size_t x = 0; x < blocks_x; ++x) {
       oracle::LeastSquares first, second;
@@ -137,7 +139,9 @@ TEST(Synthesizer, IdsNameThePointWhateverTheWaveAndBatch) {
 }
 
 TEST(Synthesizer, SpacingIsTheDistanceToTheBlocksEarlierSamples) {
-  Synthesizer engine(settings_of(8, 8));
+  SynthesisSettings settings = settings_of(8, 8);
+  settings.list.positions = SamplePositions::lattice;
+  Synthesizer engine(settings);
   std::vector<Point> earlier;
   const auto sampler = [&](std::span<const Request> requests, std::span<float> values) {
     for (std::size_t i = 0; i < requests.size(); ++i) {

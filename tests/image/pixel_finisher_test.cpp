@@ -66,7 +66,7 @@ struct FittedBlock {
     return pixels;
   }
 
-  SharedInverseList list = SharedInverseList(InverseListSettings{});
+  SharedInverseList list = SharedInverseList({.positions = SamplePositions::lattice});
   LeastSquaresRefiner refiner;
   detail::AlignedVector<float> state;
   Block coefficients{};

@@ -196,6 +196,7 @@ TEST(DisplaySampler, FitsTheSignalOfAJpeg) {
   SynthesisSettings settings;
   settings.width = settings.height = 32;
   settings.channels = 3;
+  settings.list.positions = SamplePositions::lattice;
   Synthesizer engine(settings);
   const std::array<float, 3> orange{0.9f, 0.4f, 0.1f};
   engine.run(DisplaySampler([&](double, double) { return orange; }, 3), {.samples_per_pixel = 0.5});

@@ -156,13 +156,13 @@ TEST_P(LeastSquaresFit, PixelSumsAreTheSharesOfTheSamples) {
   const LeastSquaresRefiner refiner(list_, 2);
   Fed block(refiner);
   oracle::Random random(2);
-  // Of one axis: a point on the border of two pixels is half of each, be it of another block's.
-  const auto share = [](double s, int pixel) {
-    int touched = 0;
-    for (int other = -1; other <= 8; ++other) {
-      touched += 8 * s >= other && 8 * s <= other + 1 ? 1 : 0;
-    }
-    return 8 * s >= pixel && 8 * s <= pixel + 1 ? Real{1} / touched : Real{0};
+  // Of one axis: the part in a pixel of an interval around the point, as long as the distance to
+  // its neighbours times 0.85, but at most a pixel. What is beyond the block counts for no pixel.
+  const auto share = [](double s, float spacing, int pixel) {
+    const Real half = std::min(Real{1}, Real{0.85} * 8 * spacing) / 2;
+    const Real begin = std::max(8 * Real{s} - half, Real(pixel));
+    const Real end = std::min(8 * Real{s} + half, Real(pixel + 1));
+    return std::max(end - begin, Real{0}) / (2 * half);
   };
   while (block.samples() < 600) {
     block.add({random.value(), 100 * random.value()});
@@ -174,8 +174,9 @@ TEST_P(LeastSquaresFit, PixelSumsAreTheSharesOfTheSamples) {
           Real expected = 0, magnitude = 0;
           for (std::size_t i = 0; i < block.samples(); ++i) {
             const SequencePosition& position = block.positions()[i];
-            const Real part =
-                share(position.s, x) * share(position.t, y) * static_cast<Real>(block.values(c)[i]);
+            const Real part = share(position.s, position.spacing, x) *
+                              share(position.t, position.spacing, y) *
+                              static_cast<Real>(block.values(c)[i]);
             expected += part;
             magnitude += std::abs(part);
           }
