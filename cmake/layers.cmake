@@ -37,6 +37,7 @@ set(FREQSYNTH_LAYERS
   "engine/sampling_loop.h|the loop behind `run`|"
   "image/butterworth.h|the low-pass filter against what aliasing is left|4.5"
   "image/frequency_image.h|the result: coefficients and sample counts per block|4"
+  "image/pixel_transform.h|pixels to a frequency image|2, eq. 1"
   "image/pixel_view.h|an image in the caller's own memory|"
   "image/pixel_finisher.h|finished pixels: the fit and what it leaves over (beyond the paper)|"
   "image/block_images.h|images of a store of blocks|4"

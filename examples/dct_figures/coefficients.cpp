@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "../scenes/picture_file.h"
-#include "freqsynth/basis/dct.h"
+#include "freqsynth/image/pixel_transform.h"
 #include "freqsynth/image/reconstructor.h"
 #include "freqsynth/jpeg/dequantization.h"
 #include "freqsynth/jpeg/display_encoding.h"
@@ -20,8 +20,6 @@
 #endif
 
 namespace {
-
-using freqsynth::block_size;
 
 /// The inverse of the transfer function of sRGB, for 0..1.
 float linear_of(float encoded) { return freqsynth::DisplayEncoding{}.decode(255 * encoded); }
@@ -38,13 +36,6 @@ Picture read_picture(const std::string& file) {
   return picture;
 }
 
-/// Pixel that stands for pixel `i` of `size`, which may lie beyond: the picture is mirrored at its
-/// border, as cosines are.
-std::size_t mirrored(std::size_t i, std::size_t size) {
-  i %= 2 * size;
-  return i < size ? i : 2 * size - 1 - i;
-}
-
 /// Display-encodes linear values and transforms each block (eq. 1).
 freqsynth::FrequencyImage transform(Picture picture) {
   const freqsynth::DisplayEncoding encoding;
@@ -57,22 +48,7 @@ freqsynth::FrequencyImage transform(Picture picture) {
       std::ranges::copy(encoding.encode(std::array{p[0], p[1], p[2]}), p);
     }
   }
-  freqsynth::FrequencyImage image(picture.width, picture.height, channels,
-                                  freqsynth::CoefficientMeaning::pixel_average);
-  std::array<float, freqsynth::max_terms> pixels{};
-  for (std::size_t by = 0; by < image.blocks_y(); ++by) {
-    for (std::size_t bx = 0; bx < image.blocks_x(); ++bx) {
-      for (std::size_t channel = 0; channel < channels; ++channel) {
-        for (std::size_t i = 0; i < pixels.size(); ++i) {
-          const std::size_t x = mirrored(bx * block_size + i % block_size, picture.width);
-          const std::size_t y = mirrored(by * block_size + i / block_size, picture.height);
-          pixels[i] = picture.pixels[(y * picture.width + x) * channels + channel];
-        }
-        freqsynth::forward_dct(pixels, image.coefficients(bx, by, channel));
-      }
-    }
-  }
-  return image;
+  return freqsynth::transform_pixels(picture.pixels, picture.width, picture.height, channels);
 }
 
 #ifdef FREQSYNTH_HAS_JPEG

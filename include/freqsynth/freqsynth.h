@@ -12,6 +12,7 @@
 #include "freqsynth/image/butterworth.h"
 #include "freqsynth/image/frequency_image.h"
 #include "freqsynth/image/pixel_finisher.h"
+#include "freqsynth/image/pixel_transform.h"
 #include "freqsynth/image/pixel_view.h"
 #include "freqsynth/image/reconstructor.h"
 #include "freqsynth/jpeg/dequantization.h"

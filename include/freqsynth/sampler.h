@@ -31,7 +31,8 @@ struct Request {
   /// random numbers.
   std::uint64_t id = 0;
   /// Distance in pixels to the nearest earlier samples of the block, a footprint for texture
-  /// filters.
+  /// filters. In a block of less than 8 pixels in width or height, the last of its row or column,
+  /// it is told along the shorter side.
   float spacing = 0;
   std::uint32_t slot = 0;  ///< the engine's own note; hand it back unchanged
 };

@@ -44,11 +44,11 @@ inline SynthesisSettings validated(SynthesisSettings settings, std::size_t block
   return settings;
 }
 
-/// Factor on the priority of each block: its importance times its visible share.
+/// Factor on the priority of each block: its importance times its area.
 inline std::vector<float> factors_of(const BlockGrid& grid, const std::vector<float>& importance) {
   std::vector<float> factors(grid.size());
   for (std::size_t b = 0; b < factors.size(); ++b) {
-    factors[b] = grid.visible_share(b);
+    factors[b] = grid.area(b);
     if (!importance.empty()) factors[b] *= importance[b];
   }
   return factors;

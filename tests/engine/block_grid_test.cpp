@@ -151,27 +151,34 @@ TEST(BlockGrid, NothingLiesBelowTheLastRowOfTheLargestGrid) {
   EXPECT_TRUE(sharing.empty());
 }
 
-/// Reflects at 0 and at `size` as long as it takes.
-double reflected(double x, double size) {
-  while (x < 0 || x > size) x = x < 0 ? -x : 2 * size - x;
-  return x;
-}
-
-TEST(BlockGrid, PointsBeyondTheImageAreReflectedIntoIt) {
+TEST(BlockGrid, BlocksTileTheImage) {
   const auto positions = positions_of_sequence(0);
   for (std::size_t width = 1; width <= 17; ++width) {
     for (std::size_t height = 1; height <= 17; ++height) {
       const BlockGrid grid = BlockGrid::of(width, height, 3);
+      // Whole multiples of 1/16: exact, so that points are equal or not without rounding.
+      std::map<Place, std::uint64_t> names;
+      std::set<std::uint64_t> distinct;
       for (Block block = 0; block < grid.size(); ++block) {
-        for (const SequencePosition& position : positions) {
-          const BlockGrid::Point point = grid.point(block, position);
-          const Place place = place_of(grid, block, position);
-          ASSERT_EQ(point.x, reflected(8 * place.first, static_cast<double>(width)));
-          ASSERT_EQ(point.y, reflected(8 * place.second, static_cast<double>(height)));
+        const std::size_t left = 8 * grid.column(block), top = 8 * grid.row(block);
+        const std::size_t across = std::min<std::size_t>(8, width - left);
+        const std::size_t down = std::min<std::size_t>(8, height - top);
+        for (std::uint32_t i = 0; i < count; ++i) {
+          const BlockGrid::Point point = grid.point(block, positions[i]);
+          ASSERT_EQ(point.x,
+                    static_cast<double>(left) + positions[i].s * static_cast<double>(across));
+          ASSERT_EQ(point.y, static_cast<double>(top) + positions[i].t * static_cast<double>(down));
           ASSERT_TRUE(point.x >= 0 && point.x <= static_cast<double>(width));
           ASSERT_TRUE(point.y >= 0 && point.y <= static_cast<double>(height));
+          // A point has one name, whichever block asks.
+          const std::uint64_t name = grid.name(block, i, positions[i]);
+          ASSERT_EQ(names.emplace(Place(point.x, point.y), name).first->second, name);
+          distinct.insert(name);
         }
       }
+      ASSERT_EQ(distinct.size(), names.size()) << width << " x " << height;
+      ASSERT_EQ(names.size(), (16 * grid.blocks_x + 1) * (16 * grid.blocks_y + 1));
+      ASSERT_TRUE(names.contains(Place(width, height)));
     }
   }
 }
@@ -191,7 +198,8 @@ TEST(BlockGrid, BlocksCoverAllPixels) {
       for (std::size_t block = 0; block < grid.size(); ++block) {
         const auto expected = pixels.find({grid.column(block), grid.row(block)});
         ASSERT_NE(expected, pixels.end());
-        ASSERT_EQ(64 * grid.visible_share(block), static_cast<float>(expected->second));
+        ASSERT_EQ(grid.block_width(block) * grid.block_height(block), expected->second);
+        ASSERT_EQ(64 * grid.area(block), static_cast<float>(expected->second));
       }
     }
   }

@@ -65,14 +65,8 @@ class NaiveEngine {
 
   [[nodiscard]] Point next_point(std::size_t b) const {
     const SequencePosition& position = list_.position(blocks_[b].samples);
-    // What lies beyond the image is asked where the mirror shows it.
-    const auto at = [](std::size_t block, double place, std::size_t blocks) {
-      const double point = std::abs(8 * (static_cast<double>(block) + place));
-      const auto size = static_cast<double>(8 * blocks);
-      return point > size ? 2 * size - point : point;
-    };
-    return {at(b % blocks_x_, position.s, blocks_x_),
-            at(b / blocks_x_, position.t, blocks_.size() / blocks_x_)};
+    return {8 * (static_cast<double>(b % blocks_x_) + position.s),
+            8 * (static_cast<double>(b / blocks_x_) + position.t)};
   }
 
   void absorb(std::size_t b, float value) {

@@ -113,8 +113,8 @@ TEST(ReconstructorMemory, WidthAndHeightMayScaleDifferently) {
         for (std::size_t k = 0; k < 4; ++k) {
           mean += fine[(y * 40 + 4 * x + k) * channels + c] / 4;
         }
-        // Of numbers about 1. Measured: 2.5 roundings.
-        ASSERT_NEAR(out[(y * 10 + x) * channels + c], mean, 3.2 * oracle::float_rounding);
+        // Of numbers about 1. Measured: 3.5 roundings.
+        ASSERT_NEAR(out[(y * 10 + x) * channels + c], mean, 4.2 * oracle::float_rounding);
       }
     }
   }

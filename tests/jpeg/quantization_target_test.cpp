@@ -240,6 +240,16 @@ TEST(QuantizationTarget, ABlockThatCannotMeetItIsLeft) {
     }
     EXPECT_GE(image.samples(1, 1), most) << "the edge lies there";
   }
+  // A block of a quarter of the pixels is left after a quarter of the samples.
+  SynthesisSettings narrow{.width = 12, .height = 12, .channels = 1};
+  narrow.quantization = quantization_target({.luminance = scale_table(luminance_table(), 99)}, 1);
+  narrow.quantization->most_samples = 1000;
+  Synthesizer engine(narrow);
+  EXPECT_EQ(engine.run([](double x, double) { return x < 10 ? 0.0 : 255.0; }, {}).reason,
+            StopReason::threshold);
+  EXPECT_GE(engine.image().samples(1, 1), 250u) << "the edge lies there";
+  EXPECT_LE(engine.image().samples(1, 1), 250 + 2 * SampleSequence::longest_border_run);
+
   SynthesisSettings settings{.width = 32, .height = 32, .channels = 1};
   settings.quantization = quantization_target({}, 1);
   settings.quantization->most_samples = 0;

@@ -209,20 +209,20 @@ struct Configuration {
 };
 
 constexpr Configuration configurations[] = {
-    {"color", color, 0x9094c0f70fdc98adu},
+    {"color", color, 0xf2e9eb99e9bfb23fu},
     {"gray", gray, 0x140e8174c6d14e01u},
     {"change", change, 0x927fdd910ffcda71u},
     {"strict", strict, 0x9edb4887b8cbe318u},
-    {"weighted", weighted, 0xe0337006f697be17u},
+    {"weighted", weighted, 0xf8f9c1c88aff82a2u},
     {"noisy", noisy, 0x23c76b047840e98cu},
     {"until_quantized", until_quantized, 0x03caac51df978ff2u},
     {"threshold", threshold, 0x6f3e3abf65a3a5bcu},
     {"capped", capped, 0xc8d1033893062018u},
-    {"other_list", other_list, 0x1b01fa18237930fcu},
+    {"other_list", other_list, 0x1ddf55a33c679171u},
     {"bad_values", bad_values, 0x3e1de254040c9240u},
     {"high_range", high_range, 0x3c6872b524364890u},
-    {"many_channels", many_channels, 0xed70f9418060d1f1u},
-    {"outputs", outputs, 0x2658581d9abf8446u},
+    {"many_channels", many_channels, 0x3620c732ae9e4e90u},
+    {"outputs", outputs, 0x1bf897bd78a9bb9bu},
 };
 
 }  // namespace

@@ -3,6 +3,8 @@
 /// Frequency images to test with.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -30,6 +32,35 @@ inline freqsynth::FrequencyImage random_image(std::size_t width, std::size_t hei
     }
   }
   return image;
+}
+
+/// Mean over pixel (x, y) of an image of finished pixels: each term, a cosine over the block's own
+/// length, whose coefficient tells of the mean over an eighth of that.
+inline double pixel_mean(const freqsynth::FrequencyImage& image, std::size_t x, std::size_t y,
+                         std::size_t channel) {
+  using oracle::Real;
+  const auto term_mean = [](std::size_t place, std::size_t size, int frequency) {
+    const std::size_t begin = place / 8 * 8;
+    const auto length = static_cast<Real>(std::min(begin + 8, size) - begin);
+    const auto mean = [&](Real from, Real to) {
+      const Real omega = oracle::pi * frequency;
+      return frequency == 0
+                 ? 1
+                 : (std::sin(omega * to) - std::sin(omega * from)) / (omega * (to - from));
+    };
+    const Real at = static_cast<Real>(place - begin) / length;
+    const Real cell =
+        frequency == 0 ? 1 : std::sin(oracle::pi * frequency / 16) / (oracle::pi * frequency / 16);
+    return mean(at, at + 1 / length) / cell;
+  };
+  const auto coefficients = image.coefficients(x / 8, y / 8, channel);
+  Real sum = 0;
+  for (std::size_t i = 0; i < freqsynth::max_terms; ++i) {
+    sum += oracle::amplitude(i) * static_cast<Real>(coefficients[i]) *
+           term_mean(x, image.width(), oracle::horizontal(i)) *
+           term_mean(y, image.height(), oracle::vertical(i));
+  }
+  return static_cast<double>(sum);
 }
 
 }  // namespace helpers

@@ -82,6 +82,13 @@ inline Real pixel_of_block(const std::array<float, max_terms>& block, std::size_
                              (static_cast<Real>(y) + Real{0.5}) / 8);
 }
 
+/// The pixel of an axis of `size` that stands for pixel `at`, which may lie beyond: all are
+/// repeated in opposite order, and so on.
+inline std::size_t mirrored(std::size_t at, std::size_t size) {
+  at %= 2 * size;
+  return at < size ? at : 2 * size - 1 - at;
+}
+
 /// Eq. 1.
 inline std::array<Real, max_terms> forward(const std::array<std::array<Real, 8>, 8>& pixels) {
   std::array<Real, max_terms> coefficients{};

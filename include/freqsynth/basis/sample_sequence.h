@@ -11,9 +11,8 @@
 /// On that lattice whole columns of samples lie under each other, and edges along an axis and
 /// patterns that repeat with it are measured wrong however many samples there are. So by default
 /// the lattice is bent (SamplePositions::bent): by a smooth flow that preserves areas, so that it
-/// stays as even as it was, and along the borders the same on both sides. Points on a border are
-/// moved across it, too, by a little that is spread evenly along it; for one of the two blocks they
-/// lie beyond the border then, where the cosine terms continue as in a mirror.
+/// stays as even as it was, and along the borders the same on both sides. Points on a border stay
+/// on it.
 #pragma once
 
 #include <cstddef>
@@ -32,9 +31,7 @@ enum class BlockSide : std::uint8_t { interior, corner, left, right, top, bottom
 struct SequencePosition {
   double s = 0;  ///< horizontal place in the unit block, 0 = left border, 1 = right border
   double t = 0;  ///< vertical place in the unit block, 0 = top border, 1 = bottom border
-  /// Where on the block it lies. Positions on a side of a bent lattice lie beside the border, up to
-  /// SampleSequence::most_across away, or beyond it.
-  BlockSide side = BlockSide::interior;
+  BlockSide side = BlockSide::interior;  ///< where on the block it lies
   /// How many earlier positions lie on the same side. Partners on opposite sides have the same
   /// rank, so that "the k-th point of an edge" means the same to both blocks. For corners: 0..3 in
   /// the order (0,0) (1,1) (1,0) (0,1).
@@ -75,16 +72,13 @@ class FREQSYNTH_API SampleSequence {
   /// samples a block can get from its neighbours without one of its own.
   static constexpr std::size_t longest_border_run = 6;
 
-  /// How far at most positions lie from the border that they are on, in units of the block's edge.
-  static constexpr double most_across = 0.0375;
-
   /// Positions of the finest level that is kept: 1025 x 1025.
   static constexpr std::size_t max_size = std::size_t{1025} * 1025;
 
  private:
   void append_level();
   void append(double s, double t, float spacing);
-  void bend(SequencePosition& position) const;
+  static void bend(SequencePosition& position);
 
   std::uint64_t seed_;
   SamplePositions kind_;

@@ -61,13 +61,6 @@ inline Displacement flow(double s, double t) {
                        bell(t) * std::cos(2 * pi * s + phase_s))};
 }
 
-/// Van der Corput's radical inverse in base 2, centred: in (-1/2, 1/2).
-inline double centred_radical_inverse(std::uint32_t number) {
-  double inverse = -0.5, digit = 0.5;
-  for (; number != 0; number >>= 1, digit /= 2) inverse += (number & 1) * digit;
-  return inverse + 0.5 * digit;
-}
-
 }  // namespace detail
 
 FREQSYNTH_INLINE const SequencePosition& SampleSequence::operator[](std::size_t index) {
@@ -137,31 +130,16 @@ FREQSYNTH_INLINE void SampleSequence::append(double s, double t, float spacing) 
   positions_.push_back(position);
 }
 
-/// Moves a position of the lattice to where it lies on the bent one. Corners stay.
-FREQSYNTH_INLINE void SampleSequence::bend(SequencePosition& position) const {
+/// Moves a position of the lattice to where it lies on the bent one. Nothing leaves its side.
+FREQSYNTH_INLINE void SampleSequence::bend(SequencePosition& position) {
   const detail::Displacement flow = detail::flow(position.s, position.t);
-  const double across = 4 * most_across * double{position.spacing} *
-                        detail::centred_radical_inverse(position.rank + 1);
   // The last digits are left to no mathematics library.
   constexpr double digits = 1 << 26;
-  const auto moved = [](double at, double by) { return at + std::round(by * digits) / digits; };
-  switch (position.side) {
-    case BlockSide::corner:
-      return;
-    case BlockSide::left:
-    case BlockSide::right:
-      position.s = moved(position.s, across);
-      position.t = moved(position.t, flow.t);
-      return;
-    case BlockSide::top:
-    case BlockSide::bottom:
-      position.s = moved(position.s, flow.s);
-      position.t = moved(position.t, across);
-      return;
-    default:
-      position.s = moved(position.s, flow.s);
-      position.t = moved(position.t, flow.t);
-  }
+  const auto moved = [](double at, double by) {
+    return at == 0 || at == 1 ? at : at + std::round(by * digits) / digits;
+  };
+  position.s = moved(position.s, flow.s);
+  position.t = moved(position.t, flow.t);
 }
 
 }  // namespace freqsynth

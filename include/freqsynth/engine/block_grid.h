@@ -11,8 +11,19 @@
 
 namespace freqsynth {
 
-/// The grid of blocks, numbered row by row. The last ones of an image whose size is no multiple of
-/// 8 reach beyond it.
+namespace detail {
+
+/// Length in pixels (1..8) of block `block` along an axis of `pixels` pixels: 8, or what is left of
+/// the image.
+[[nodiscard]] constexpr std::size_t block_length(std::size_t block, std::size_t pixels) {
+  const std::size_t left = pixels - block * block_size;
+  return left < block_size ? left : block_size;
+}
+
+}  // namespace detail
+
+/// The grid of blocks, numbered row by row. They tile the image exactly: the last column and the
+/// last row are as narrow as what is left of it, and their unit square is stretched over that.
 struct BlockGrid {
   std::size_t blocks_x = 0;  ///< in a row
   std::size_t blocks_y = 0;  ///< in a column
@@ -31,16 +42,27 @@ struct BlockGrid {
   /// Row of a block, from the top.
   [[nodiscard]] std::size_t row(std::size_t block) const { return block / blocks_x; }
 
-  /// Share of the pixels of a block that the image shows, in (0, 1].
-  [[nodiscard]] FREQSYNTH_API float visible_share(std::size_t block) const;
+  /// Width of a block in pixels, 1..8.
+  [[nodiscard]] std::size_t block_width(std::size_t block) const {
+    return detail::block_length(column(block), width);
+  }
+  /// Height of a block in pixels, 1..8.
+  [[nodiscard]] std::size_t block_height(std::size_t block) const {
+    return detail::block_length(row(block), height);
+  }
+  /// Area of a block relative to that of 8 x 8 pixels, in (0, 1].
+  [[nodiscard]] float area(std::size_t block) const {
+    const std::size_t pixels = block_width(block) * block_height(block);
+    return static_cast<float>(pixels) / static_cast<float>(block_size * block_size);
+  }
 
   /// A point of the image, in pixels.
   struct Point {
     double x = 0;  ///< continuous pixels to the right
     double y = 0;  ///< continuous pixels downwards
   };
-  /// Where a position of the sequence lies for a block. What would lie beyond the image is
-  /// reflected back into it.
+  /// Where a position of the sequence lies in a block. Within the image; exactly on its border
+  /// where the position is on that side of a last block.
   [[nodiscard]] Point point(std::size_t block, const SequencePosition& position) const;
 
   /// Names the point that is position `index` of a block: the same whichever block asks, and no two
@@ -60,33 +82,15 @@ struct BlockGrid {
 
 // ------------------------------------------------------------------------------------ definitions
 
-namespace detail {
-
-/// Reflects a coordinate beyond `size` back into [0, size].
-[[nodiscard]] FREQSYNTH_API double reflect(double x, double size);
-
-}  // namespace detail
-
 inline BlockGrid::Point BlockGrid::point(std::size_t block,
                                          const SequencePosition& position) const {
-  Point point{(static_cast<double>(column(block)) + position.s) * block_size,
-              (static_cast<double>(row(block)) + position.t) * block_size};
-  const auto right = static_cast<double>(width);
-  const auto bottom = static_cast<double>(height);
-  // Positions beside a border that is the image's, too, may lie beyond it.
-  if (point.x < 0) [[unlikely]] {
-    point.x = -point.x;
-  }
-  if (point.y < 0) [[unlikely]] {
-    point.y = -point.y;
-  }
-  if (point.x > right) [[unlikely]] {
-    point.x = detail::reflect(point.x, right);
-  }
-  if (point.y > bottom) [[unlikely]] {
-    point.y = detail::reflect(point.y, bottom);
-  }
-  return point;
+  const std::size_t x = column(block);
+  const std::size_t y = row(block);
+  const auto place = [](std::size_t block_before, std::size_t pixels, double at) {
+    const auto length = static_cast<double>(detail::block_length(block_before, pixels));
+    return static_cast<double>(block_before * block_size) + at * length;
+  };
+  return {place(x, width, position.s), place(y, height, position.t)};
 }
 
 inline std::uint64_t BlockGrid::name(std::uint32_t block, std::uint32_t index,

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <string>
@@ -11,20 +9,6 @@
 #include "freqsynth/engine/block_grid.h"
 
 namespace freqsynth {
-namespace detail {
-
-FREQSYNTH_INLINE double reflect(double x, double size) {
-  x = std::fmod(x, 2 * size);
-  return x > size ? 2 * size - x : x;
-}
-
-/// Share of the pixels of block `block` along one axis that the image shows.
-inline double visible_share(std::size_t block, std::size_t size) {
-  const std::size_t first = block * block_size;
-  return static_cast<double>(std::min(size - first, block_size)) / block_size;
-}
-
-}  // namespace detail
 
 FREQSYNTH_INLINE BlockGrid BlockGrid::of(std::size_t width, std::size_t height,
                                          std::size_t channels) {
@@ -42,11 +26,6 @@ FREQSYNTH_INLINE BlockGrid BlockGrid::of(std::size_t width, std::size_t height,
       static_cast<std::size_t>(std::numeric_limits<std::ptrdiff_t>::max()) / sizeof(float);
   if (channels > most_floats / max_terms / (x * y)) refuse("is too large");
   return {x, y, width, height};
-}
-
-FREQSYNTH_INLINE float BlockGrid::visible_share(std::size_t block) const {
-  return static_cast<float>(detail::visible_share(column(block), width) *
-                            detail::visible_share(row(block), height));
 }
 
 }  // namespace freqsynth

@@ -149,7 +149,9 @@ Request Engine<R, M>::make_request(std::uint32_t slot) const {
   const Wave::Slot& asked = wave_.slot(slot);
   const SequencePosition& place = position(asked.index);
   const BlockGrid::Point point = grid_.point(asked.block, place);
-  return {point.x, point.y, name(asked), place.spacing * block_size, slot};
+  const std::size_t side =
+      std::min(grid_.block_width(asked.block), grid_.block_height(asked.block));
+  return {point.x, point.y, name(asked), place.spacing * static_cast<float>(side), slot};
 }
 
 /// Claims the slots of all requests. \throws std::invalid_argument, and none is claimed.

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "freqsynth/basis/config.h"
+#include "freqsynth/engine/block_grid.h"
 
 namespace freqsynth {
 
@@ -17,12 +18,15 @@ namespace freqsynth {
 enum class CoefficientMeaning : std::uint8_t {
   /// A band-limited function of the position as it was fit: eq. 2 at any point is its value there.
   point_function,
-  /// Finished pixels: eq. 2 at a pixel's centre is the mean over the pixel, low-pass included.
+  /// Finished pixels: eq. 2 at a pixel's centre is the mean over the pixel, low-pass included. In a
+  /// block narrower than 8 pixels, at the centre of each of 8 x 8 equal cells the mean over the
+  /// cell.
   pixel_average
 };
 
-/// A grid of blocks of coefficients. The last blocks of an image whose size is no multiple of 8
-/// reach beyond it. An image that was moved from is empty.
+/// A grid of blocks of coefficients, which tile the image exactly: the last column and the last row
+/// are as narrow as what is left of it, and s and t go from 0 to 1 over that. An image that was
+/// moved from is empty.
 class FrequencyImage {
  public:
   /// An empty image.
@@ -53,6 +57,16 @@ class FrequencyImage {
   [[nodiscard]] std::size_t blocks_x() const { return size_.blocks_x; }
   /// Blocks in a column: height / 8, rounded up.
   [[nodiscard]] std::size_t blocks_y() const { return size_.blocks_y; }
+  /// Width in pixels (1..8) of the blocks of a column.
+  [[nodiscard]] std::size_t block_width(std::size_t block_x) const {
+    FREQSYNTH_ASSERT(block_x < size_.blocks_x);
+    return detail::block_length(block_x, size_.width);
+  }
+  /// Height in pixels (1..8) of the blocks of a row.
+  [[nodiscard]] std::size_t block_height(std::size_t block_y) const {
+    FREQSYNTH_ASSERT(block_y < size_.blocks_y);
+    return detail::block_length(block_y, size_.height);
+  }
   /// What the coefficients stand for.
   [[nodiscard]] CoefficientMeaning meaning() const { return meaning_; }
 

@@ -163,8 +163,10 @@ FREQSYNTH_INLINE void evaluate(const FrequencyImage& image, const ButterworthSet
   const std::size_t by = block_of(y, image.blocks_y());
   detail::ButterworthTable factors = detail::amplitude_factors(image, butterworth);
   std::array<double, max_terms> terms;
-  evaluate_terms(x / block_size - static_cast<double>(bx), y / block_size - static_cast<double>(by),
-                 terms);
+  const auto place = [](double at, std::size_t block, std::size_t length) {
+    return (at - static_cast<double>(block * block_size)) / static_cast<double>(length);
+  };
+  evaluate_terms(place(x, bx, image.block_width(bx)), place(y, by, image.block_height(by)), terms);
   const auto& factor = factors.of(image.samples(bx, by));
   for (std::size_t channel = 0; channel < image.channels(); ++channel) {
     const auto coefficients = image.coefficients(bx, by, channel);

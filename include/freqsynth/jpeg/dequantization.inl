@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -9,6 +10,7 @@
 #include "freqsynth/basis/aligned.h"
 #include "freqsynth/basis/check.h"
 #include "freqsynth/basis/dct.h"
+#include "freqsynth/image/pixel_transform.h"
 #include "freqsynth/jpeg/block_scaling.h"
 #include "freqsynth/jpeg/dequantization.h"
 
@@ -41,6 +43,12 @@ inline void dequantize_component(const QuantizedComponent& component,
       const AlignedBlock& result = same_size ? block : scaled;
       const auto coefficients = out.coefficients(x, y, channel);
       for (std::size_t i = 0; i < max_terms; ++i) coefficients[i] = result[zigzag_to_row_major[i]];
+      const std::size_t width = out.block_width(x);
+      const std::size_t height = out.block_height(y);
+      if (width == block_size && height == block_size) continue;
+      std::array<float, max_terms> pixels;
+      inverse_dct(coefficients, pixels);
+      transform_block(pixels, width, height, coefficients);
     }
   }
 }

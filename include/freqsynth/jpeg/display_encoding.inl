@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "freqsynth/basis/check.h"
-#include "freqsynth/basis/dct.h"
 #include "freqsynth/basis/float_bits.h"
+#include "freqsynth/image/pixel_transform.h"
 #include "freqsynth/jpeg/display_encoding.h"
 
 namespace freqsynth {
@@ -35,22 +35,6 @@ inline float linear_of_srgb(float x) {
 }
 
 inline float clamp_to_one(float x) { return std::fmin(std::fmax(x, 0.0f), 1.0f); }
-
-/// The image with whole blocks, also where they reach beyond it.
-inline FrequencyImage whole_blocks(const FrequencyImage& image) {
-  FrequencyImage whole(image.blocks_x() * block_size, image.blocks_y() * block_size,
-                       image.channels(), image.meaning());
-  for (std::size_t by = 0; by < whole.blocks_y(); ++by) {
-    for (std::size_t bx = 0; bx < whole.blocks_x(); ++bx) {
-      whole.samples(bx, by) = image.samples(bx, by);
-      for (std::size_t c = 0; c < image.channels(); ++c) {
-        const auto coefficients = image.coefficients(bx, by, c);
-        std::copy(coefficients.begin(), coefficients.end(), whole.coefficients(bx, by, c).begin());
-      }
-    }
-  }
-  return whole;
-}
 
 }  // namespace detail
 
@@ -118,23 +102,12 @@ FREQSYNTH_INLINE FrequencyImage encode_pixels(const FrequencyImage& linear,
   const std::size_t channels = linear.channels();
   detail::check_display_channels(channels, channels);
   encoding.validate();
-  std::vector<float> pixels = reconstruct(detail::whole_blocks(linear), settings);
+  std::vector<float> pixels = reconstruct(linear, settings);
   encoding.encode(pixels, channels);
-  FrequencyImage encoded(linear.width(), linear.height(), channels,
-                         CoefficientMeaning::pixel_average);
-  const std::size_t width = encoded.blocks_x() * block_size;
-  std::array<float, max_terms> block;
+  FrequencyImage encoded = transform_pixels(pixels, linear.width(), linear.height(), channels);
   for (std::size_t by = 0; by < encoded.blocks_y(); ++by) {
     for (std::size_t bx = 0; bx < encoded.blocks_x(); ++bx) {
       encoded.samples(bx, by) = linear.samples(bx, by);
-      for (std::size_t c = 0; c < channels; ++c) {
-        for (std::size_t i = 0; i < max_terms; ++i) {
-          const std::size_t x = bx * block_size + i % block_size;
-          const std::size_t y = by * block_size + i / block_size;
-          block[i] = pixels[(y * width + x) * channels + c];
-        }
-        forward_dct(block, encoded.coefficients(bx, by, c));
-      }
     }
   }
   return encoded;

@@ -35,7 +35,7 @@ struct QuantizationSettings {
 /// Quantises an image whose signal is that of JPEG: one channel Y, or three channels Y, Cb and Cr,
 /// with Y in 0..255 and Cb and Cr around 0 (see display_encoding.h). The pixels that a decoder
 /// makes of the result are those of reconstruct() with the box filter, up to the quantiser's
-/// rounding.
+/// rounding. JPEG's blocks all have 8 x 8 pixels: those beyond the image are its mirror image.
 ///
 /// AC values are clamped to +-1023 and DC values to -1024..1023, so that no difference exceeds
 /// 2047.

@@ -42,9 +42,13 @@ inline ButterworthTable mean_factors(const ButterworthSettings& butterworth) {
 class PixelBlocks {
  public:
   PixelBlocks(const FrequencyImage& image, const ButterworthSettings& butterworth)
-      : image_(image), factors_(mean_factors(butterworth)) {}
+      : image_(image),
+        factors_(mean_factors(butterworth)),
+        whole_(AxisMap::extend(block_size)),
+        last_column_(AxisMap::extend(image.block_width(image.blocks_x() - 1))),
+        last_row_(AxisMap::extend(image.block_height(image.blocks_y() - 1))) {}
 
-  /// Block (x, y); beyond the grid the image is continued as in a mirror.
+  /// Block (x, y) of 8 x 8 pixels; beyond the image it is continued as in a mirror.
   void read(std::size_t x, std::size_t y, std::size_t channel, TermValues& block) {
     const bool mirror_x = x >= image_.blocks_x();
     const bool mirror_y = y >= image_.blocks_y();
@@ -57,6 +61,7 @@ class PixelBlocks {
     } else {
       std::copy(coefficients.begin(), coefficients.end(), block.begin());
     }
+    extend(bx, by, block);
     if (!mirror_x && !mirror_y) return;
     for (std::size_t i = 0; i < max_terms; ++i) {
       const Frequency f = frequency_of_term(i);
@@ -71,8 +76,20 @@ class PixelBlocks {
   }
 
  private:
+  /// Makes 8 x 8 pixels of a block that is narrower.
+  void extend(std::size_t bx, std::size_t by, TermValues& block) const {
+    const bool narrow = image_.block_width(bx) < block_size;
+    const bool low = image_.block_height(by) < block_size;
+    if (!narrow && !low) return;
+    AlignedBlock own, extended;
+    for (std::size_t i = 0; i < max_terms; ++i) own[zigzag_to_row_major[i]] = block[i];
+    AxisMap::apply(narrow ? last_column_ : whole_, low ? last_row_ : whole_, own, extended);
+    for (std::size_t i = 0; i < max_terms; ++i) block[i] = extended[zigzag_to_row_major[i]];
+  }
+
   const FrequencyImage& image_;
   ButterworthTable factors_;
+  AxisMap whole_, last_column_, last_row_;
   std::array<TermValues, 4> four_;
 };
 

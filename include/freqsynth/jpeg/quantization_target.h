@@ -30,8 +30,8 @@ struct QuantizationTarget {
   double tolerance = 0.25;
 
   /// A block is done after so many samples, 64 per pixel, whatever its expected error: where they
-  /// do not suffice, as at edges that lie along rows of samples, more would not for long. At
-  /// least 1.
+  /// do not suffice, as at edges that lie along rows of samples, more would not for long. A block
+  /// of less than 8 x 8 pixels is done after so many less. At least 1.
   std::size_t most_samples = 4096;
 
   /// The most squared error of a block that is done, in squared steps.

@@ -41,7 +41,7 @@ class QuantizerMeasure {
   template <Refiner R>
   [[nodiscard]] float priority(const BlockView<R>& view, std::uint32_t block, float factor) const {
     const std::uint32_t samples = view.blocks.samples(block);
-    if (samples >= target_.most_samples) return 0;
+    if (per_whole_block(view, block) >= target_.most_samples) return 0;
     const float error = std::min(error_of(view, block), most_priority);
     const auto allowed =
         static_cast<float>(std::min(target_.allowed_error(), double{most_priority}));
@@ -55,6 +55,13 @@ class QuantizerMeasure {
   [[nodiscard]] static bool cares(float priority) { return priority == 0; }
 
  private:
+  /// Samples of a block, or as many as one of 8 x 8 pixels has with the same number per pixel.
+  template <Refiner R>
+  [[nodiscard]] static std::size_t per_whole_block(const BlockView<R>& view, std::uint32_t block) {
+    const std::size_t pixels = view.grid.block_width(block) * view.grid.block_height(block);
+    return view.blocks.samples(block) * max_terms / pixels;
+  }
+
   /// Expected squared error after quantisation, in squared steps.
   template <Refiner R>
   [[nodiscard]] float error_of(const BlockView<R>& view, std::uint32_t block) const {
@@ -65,7 +72,7 @@ class QuantizerMeasure {
       float residual = book_.pooled(
           view, block, [&](std::uint32_t b) { return plausible_residual(view, b, c); }, neighbours_,
           0);
-      if (!noisy_) residual *= evenness(samples);
+      if (!noisy_) residual *= evenness(per_whole_block(view, block));
       residual += metric_.uncertainty(samples, view.signal.variance(c));
       view.blocks.coefficients(block, c, coefficients);
       error += quantized_error(target_.steps[c], coefficients,
