@@ -27,6 +27,7 @@ set(FREQSYNTH_LAYERS
   "engine/block_set.h|some of the blocks|"
   "engine/block_store.h|the state of every block|4"
   "engine/block_queue.h|which block is first|4.4"
+  "engine/channel_units.h|powers of two that each channel's values are kept in units of|"
   "engine/edge_cache.h|samples on borders, taken once for two or four blocks|4.3.1"
   "engine/signal_statistics.h|the scale of the signal|4.4"
   "engine/priority.h|how much a block deserves the next sample: settings and formulas|4.4"

@@ -84,10 +84,10 @@ Result result_of(PriorityMeasure measure, double spp, std::size_t stray, float v
 }
 
 class Firefly : public testing::TestWithParam<std::tuple<PriorityMeasure, float>> {};
-INSTANTIATE_TEST_SUITE_P(MeasuresAndValues, Firefly,
-                         testing::Combine(testing::Values(PriorityMeasure::residual,
-                                                          PriorityMeasure::change),
-                                          testing::Values(10.0f, 1e3f, 1e6f, -1e9f, 1e15f)));
+INSTANTIATE_TEST_SUITE_P(
+    MeasuresAndValues, Firefly,
+    testing::Combine(testing::Values(PriorityMeasure::residual, PriorityMeasure::change),
+                     testing::Values(10.0f, 1e3f, 1e6f, -1e9f, 1e15f, 1e25f, -1e36f)));
 
 TEST_P(Firefly, StaysWhereItIs) {
   const auto [measure, value] = GetParam();

@@ -35,6 +35,9 @@ class BlockChoice {
   /// Whether more samples of a block are wanted at all.
   [[nodiscard]] bool wanted(std::uint32_t block) const { return factors_[block] > 0; }
 
+  /// See BlockMeasure.
+  void use_units(const BlockView<R>& view, float factor);
+
   /// A block has taken in a sample, which changed it by `change`.
   void absorbed(const BlockView<R>& view, std::uint32_t block, float change) {
     measure_.absorbed(view, block, change);
@@ -60,6 +63,17 @@ class BlockChoice {
 template <Refiner R, BlockMeasure<R> M>
 BlockChoice<R, M>::BlockChoice(M measure, std::vector<float> factors)
     : measure_(std::move(measure)), factors_(std::move(factors)), queue_(factors_.size()) {}
+
+template <Refiner R, BlockMeasure<R> M>
+void BlockChoice<R, M>::use_units(const BlockView<R>& view, float factor) {
+  measure_.use_units(view, factor);
+  if (factor == 1) return;
+  for (std::size_t b = 0; b < queue_.size(); ++b) {
+    const float priority = queue_.priority(b);
+    // Blocks without a sample stay the most urgent ones.
+    if (priority >= 0 && priority <= most_priority) queue_.update(b, priority * factor);
+  }
+}
 
 template <Refiner R, BlockMeasure<R> M>
 std::uint32_t BlockChoice<R, M>::take() {

@@ -4,14 +4,18 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "freqsynth/basis/aligned.h"
 #include "freqsynth/basis/config.h"
 #include "freqsynth/refine/refiner.h"
+#include "freqsynth/sampler.h"
 
 namespace freqsynth {
 
@@ -36,6 +40,13 @@ class BlockStore {
   [[nodiscard]] std::size_t untouched() const { return untouched_; }
   /// Samples of the block that has the most.
   [[nodiscard]] std::size_t largest() const { return largest_; }
+
+  /// Changes the units that states are kept in, at first 1: each channel's is 2 to the power of its
+  /// exponent, in -126..126. Values come in the host's unit; all that is said of a block is in
+  /// these. `weights` are those of the channels in their new units.
+  void use_units(std::span<const int> exponents, std::span<const float> weights);
+  /// Binary logarithm of a channel's unit.
+  [[nodiscard]] int exponent(std::size_t channel) const { return exponents_[channel]; }
 
   /// Takes in the next sample of a block that is not full. \return the refiner's measure of change.
   float absorb(std::size_t block, const float* values);
@@ -76,6 +87,9 @@ class BlockStore {
   std::vector<std::uint32_t> counts_;
   std::size_t untouched_;
   std::size_t largest_ = 0;
+  std::vector<int> exponents_;
+  std::vector<float> factors_;  // of a value: 1 / unit
+  std::vector<float> values_;   // of a sample in the channels' units
 };
 
 // ------------------------------------------------------------------------------------ definitions
@@ -83,6 +97,9 @@ class BlockStore {
 template <Refiner R>
 BlockStore<R>::BlockStore(R refiner, std::size_t blocks, std::size_t most_samples)
     : refiner_(std::move(refiner)), most_samples_(most_samples), counts_(blocks) {
+  exponents_.assign(refiner_.channels(), 0);
+  factors_.assign(refiner_.channels(), 1.0f);
+  values_.resize(refiner_.channels());
   constexpr std::size_t line = detail::alignment / sizeof(float);
   stride_ = (refiner_.state_size() + line - 1) / line * line;
   states_.resize(blocks * stride_);
@@ -91,11 +108,30 @@ BlockStore<R>::BlockStore(R refiner, std::size_t blocks, std::size_t most_sample
 }
 
 template <Refiner R>
+void BlockStore<R>::use_units(std::span<const int> exponents, std::span<const float> weights) {
+  refiner_.weigh(weights);
+  for (std::size_t c = 0; c < exponents_.size(); ++c) {
+    const int difference = exponents_[c] - exponents[c];
+    if (difference == 0) continue;
+    exponents_[c] = exponents[c];
+    factors_[c] = std::ldexp(1.0f, -exponents[c]);
+    for (std::size_t b = 0; b < size(); ++b) {
+      if (counts_[b] > 0) refiner_.rescale(states_.data() + b * stride_, c, difference);
+    }
+  }
+}
+
+template <Refiner R>
 float BlockStore<R>::absorb(std::size_t block, const float* values) {
   FREQSYNTH_ASSERT(!full(block));
   std::uint32_t& count = counts_[block];
   if (count == 0) --untouched_;
-  const float change = refiner_.absorb(states_.data() + block * stride_, count, values);
+  for (std::size_t c = 0; c < factors_.size(); ++c) {
+    // What is not usable in the host's unit is not in any.
+    values_[c] =
+        is_usable_sample(values[c]) ? values[c] * factors_[c] : std::bit_cast<float>(0x7fc00000u);
+  }
+  const float change = refiner_.absorb(states_.data() + block * stride_, count, values_.data());
   ++count;
   largest_ = std::max<std::size_t>(largest_, count);
   return change;

@@ -28,6 +28,7 @@
 #include "freqsynth/engine/block_measure.h"
 #include "freqsynth/engine/block_set.h"
 #include "freqsynth/engine/block_store.h"
+#include "freqsynth/engine/channel_units.h"
 #include "freqsynth/engine/edge_cache.h"
 #include "freqsynth/engine/signal_statistics.h"
 #include "freqsynth/engine/stop_rule.h"
@@ -98,6 +99,7 @@ class Engine {
   [[nodiscard]] Request make_request(std::uint32_t slot) const;
   void claim(std::span<const Request> requests);
   void finish_wave();
+  void change_units();
   void route(const Wave::Slot& slot, const float* values);
   void note(const Wave::Slot& slot, const float* values);
   void absorb(std::uint32_t block, const float* values);
@@ -106,6 +108,7 @@ class Engine {
   BlockGrid grid_;
   BlockStore<R> blocks_;
   EdgeCache cache_;
+  ChannelUnits units_;
   SignalStatistics signal_;
   BlockChoice<R, M> choice_;
   Wave wave_;
@@ -113,7 +116,8 @@ class Engine {
   std::size_t wave_size_;
   StopRule stop_;
   SynthesisStats stats_;
-  bool any_usable_ = false;  // whether there was a usable value
+  std::vector<bool> counts_;  // channels whose values can make a sample bad
+  bool any_usable_ = false;   // whether there was a usable value
   std::uint64_t patience_ = unusable_at_most;
   std::vector<BadSample> bad_;
   mutable std::mutex mutex_;

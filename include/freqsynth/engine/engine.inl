@@ -11,6 +11,7 @@ Engine<R, M>::Engine(const BlockGrid& grid, BlockStore<R> blocks, M measure,
     : grid_(grid),
       blocks_(std::move(blocks)),
       cache_(grid, blocks_.refiner().channels()),
+      units_(blocks_.refiner().weights()),
       signal_(blocks_.refiner().channels()),
       choice_(std::move(measure), std::move(factors)),
       wave_(blocks_.refiner().channels()),
@@ -18,6 +19,10 @@ Engine<R, M>::Engine(const BlockGrid& grid, BlockStore<R> blocks, M measure,
   const std::size_t most = std::max<std::size_t>(grid.size(), 1);
   wave_size_ = wave != 0 ? std::min(wave, most) : std::max<std::size_t>(most / 32, 1);
   stats_.blocks = grid.size();
+  blocks_.use_units(units_.exponents(), units_.weights());
+  for (const float weight : units_.weights()) counts_.push_back(weight > 0);
+  const bool none = std::none_of(counts_.begin(), counts_.end(), [](bool one) { return one; });
+  if (none) counts_.assign(counts_.size(), true);
   choice_.revise_all(view());
 }
 
@@ -55,8 +60,10 @@ std::optional<StopReason> Engine<R, M>::prepare_wave() {
   }
   const std::size_t most = std::min<std::uint64_t>(wave_size_, stop_.samples - stats_.samples);
   reserve(most);
-  const auto threshold = static_cast<float>(
-      std::min(stop_.aliasing_threshold * stop_.aliasing_threshold, double{most_priority}));
+  // In the unit of the priorities. Of a signal that is all 0 so far, everything is below it.
+  const double rule = std::ldexp(stop_.aliasing_threshold, -units_.exponent());
+  const double square = units_.known() || rule == 0 ? rule * rule : double{most_priority};
+  const auto threshold = static_cast<float>(std::min(square, double{most_priority}));
   while (wave_.size() < most && choice_.top_priority() > threshold) choose(choice_.take());
   if (!wave_.empty()) return std::nullopt;
   if (choice_.top_priority() < 0) return reason(StopReason::exhausted);
@@ -159,6 +166,7 @@ template <Refiner R, BlockMeasure<R> M>
 void Engine<R, M>::finish_wave() {
   // The states of blocks lie all over the memory: fetch those that come soon.
   constexpr std::size_t ahead = 6;
+  if (!units_.fit(wave_.values())) change_units();
   for (std::size_t i = 0; i < wave_.size(); ++i) {
     if (i + ahead < wave_.size()) {
       const auto [block, index] = wave_.slot(i + ahead);
@@ -170,7 +178,7 @@ void Engine<R, M>::finish_wave() {
   stats_.samples += wave_.size();
   ++stats_.waves;
   wave_.clear();
-  if (blocks_.untouched() == 0 && signal_.variance() == 0) {
+  if (blocks_.untouched() == 0 && !signal_.settled()) {
     signal_.settle(blocks_.refiner().weights());
     choice_.revise_all(view());
   } else {
@@ -179,17 +187,38 @@ void Engine<R, M>::finish_wave() {
   touched_.clear();
 }
 
+/// Values have come that blocks cannot take in in their units. To change these rounds nothing.
+template <Refiner R, BlockMeasure<R> M>
+void Engine<R, M>::change_units() {
+  const int before = units_.exponent();
+  const bool known = units_.known();
+  units_.revise(wave_.values());
+  blocks_.use_units(units_.exponents(), units_.weights());
+  signal_.use_units(units_.exponents(), units_.weights());
+  // Where all was 0 it still is. Units grow, once they are known.
+  const int growth = known ? units_.exponent() - before : 0;
+  choice_.use_units(view(), std::ldexp(1.0f, -2 * growth));
+}
+
 /// Looks at a sample as such.
 template <Refiner R, BlockMeasure<R> M>
 void Engine<R, M>::note(const Wave::Slot& slot, const float* values) {
   const std::size_t channels = blocks_.refiner().channels();
   const SequencePosition& place = position(slot.index);
-  std::size_t usable = 0;
-  for (std::size_t c = 0; c < channels; ++c) usable += is_usable_sample(values[c]) ? 1 : 0;
-  any_usable_ = any_usable_ || usable > 0;
-  if (usable == channels) {
-    signal_.note(values);
-    if (place.side == BlockSide::corner) signal_.add(values);
+  bool bad = false, ignored = false;
+  for (std::size_t c = 0; c < channels; ++c) {
+    if (is_usable_sample(values[c])) {
+      signal_.note(c, values[c]);
+      if (place.side == BlockSide::corner) signal_.add(c, values[c]);
+      any_usable_ = any_usable_ || counts_[c];
+    } else if (counts_[c]) {
+      bad = true;
+    } else {
+      ignored = true;
+    }
+  }
+  if (!bad) {
+    stats_.ignored_bad_samples += ignored ? 1 : 0;
     return;
   }
   ++stats_.bad_samples;

@@ -4,9 +4,11 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
+#include <span>
 #include <vector>
 
 #include "freqsynth/basis/config.h"
@@ -18,6 +20,15 @@
 #include "freqsynth/refine/refiner.h"
 
 namespace freqsynth {
+namespace detail {
+
+/// Coefficients in units of 2 to the power of an exponent, in -126..126, in the host's unit.
+inline void to_host_unit(std::span<float> coefficients, int exponent) {
+  const float unit = std::ldexp(1.0f, exponent);
+  for (float& coefficient : coefficients) coefficient *= unit;
+}
+
+}  // namespace detail
 
 /// The fit itself (CoefficientMeaning::point_function).
 template <Refiner R>
@@ -30,6 +41,7 @@ template <Refiner R>
     image.samples(x, y) = blocks.samples(b);
     for (std::size_t c = 0; c < channels; ++c) {
       blocks.coefficients(b, c, image.coefficients(x, y, c));
+      detail::to_host_unit(image.coefficients(x, y, c), blocks.exponent(c));
     }
   }
   return image;
@@ -57,6 +69,7 @@ template <Refiner R>
     finisher.advance(blocks.samples(block));
     for (std::size_t c = 0; c < channels; ++c) {
       finisher.finish(blocks.fit(block, c), image.coefficients(x, y, c));
+      detail::to_host_unit(image.coefficients(x, y, c), blocks.exponent(c));
     }
   }
   return image;

@@ -41,6 +41,8 @@ class FREQSYNTH_API LeastSquaresRefiner {
   [[nodiscard]] std::size_t channels() const { return channels_; }
   /// Weight of each channel.
   [[nodiscard]] std::span<const float> weights() const { return weights_; }
+  /// Other weights from now on, one per channel.
+  void weigh(std::span<const float> weights) { weights_.assign(weights.begin(), weights.end()); }
   /// Floats in the state of a block. States are aligned to 32 bytes.
   [[nodiscard]] std::size_t state_size() const {
     return 2 * channels_ * max_terms + (channels_ + 15) / 16 * 16;
@@ -48,6 +50,9 @@ class FREQSYNTH_API LeastSquaresRefiner {
 
   /// Puts a state to "no sample yet".
   void reset(float* state) const;
+  /// Multiplies all values of a channel that a state has absorbed by 2 to the power of `exponent`.
+  /// Exact as long as no value is near the ends of a float's range.
+  void rescale(float* state, std::size_t channel, int exponent) const;
 
   /// Absorbs the values of sample `index` of the sequence; every index must come, in order.
   ///

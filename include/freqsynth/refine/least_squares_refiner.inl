@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -36,6 +37,18 @@ FREQSYNTH_INLINE void LeastSquaresRefiner::reset(float* state) const {
   for (std::size_t c = 0; c < channels_; ++c) {
     state[c * max_terms] = std::bit_cast<float>(0x7fc00000u);
   }
+}
+
+FREQSYNTH_INLINE void LeastSquaresRefiner::rescale(float* state, std::size_t channel,
+                                                   int exponent) const {
+  float* own = state + channel * max_terms;
+  float* sums = own + channels_ * max_terms;
+  for (std::size_t i = 0; i < max_terms; ++i) {
+    own[i] = std::ldexp(own[i], exponent);
+    sums[i] = std::ldexp(sums[i], exponent);
+  }
+  float& squares = state[2 * channels_ * max_terms + channel];
+  squares = std::ldexp(squares, 2 * exponent);
 }
 
 FREQSYNTH_INLINE float LeastSquaresRefiner::absorb_channelwise(float* state, std::size_t index,

@@ -19,6 +19,9 @@ namespace freqsynth {
 
 class InverseList;
 
+/// Largest magnitude of a value, in the unit of the states, whose squares a refiner has to bear.
+inline constexpr float most_state_value = 0x1p50f;
+
 /// What an estimator says of one channel of a block; what images are made of.
 struct BlockFit {
   /// F (eqs. 1, 2) in zig-zag order; zeros when the channel had no usable value.
@@ -30,19 +33,23 @@ struct BlockFit {
 };
 
 template <class R>
-concept Refiner = requires(const R& refiner, float* state, const float* known, const float* values,
-                           std::size_t n, std::size_t channel,
-                           std::span<float, max_terms> coefficients) {
+concept Refiner = requires(R& own, const R& refiner, float* state, const float* known,
+                           const float* values, std::size_t n, std::size_t channel,
+                           std::span<float, max_terms> coefficients, int exponent) {
   /// The sequence that it follows, and what is shared by all blocks.
   { refiner.list() } -> std::same_as<const InverseList&>;
   { refiner.channels() } -> std::same_as<std::size_t>;
   /// Weight of each channel where one number has to stand for all.
   { refiner.weights() } -> std::same_as<std::span<const float>>;
+  /// Other weights from now on.
+  { own.weigh(std::span<const float>{}) } -> std::same_as<void>;
 
   /// Floats that a block keeps.
   { refiner.state_size() } -> std::same_as<std::size_t>;
   /// Puts a state to "no sample yet".
   { refiner.reset(state) } -> std::same_as<void>;
+  /// Multiplies all values of a channel that a state has absorbed by 2 to the power of an exponent.
+  { refiner.rescale(state, channel, exponent) } -> std::same_as<void>;
   /// Takes in the values of sample n, one per channel; returns the mean squared change of the
   /// block's pixels, weighted over the channels.
   { refiner.absorb(state, n, values) } -> std::same_as<float>;
