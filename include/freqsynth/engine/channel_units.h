@@ -42,13 +42,18 @@ class ChannelUnits {
   /// Whether the values, `channels` for each sample, fit the units. Values that are not usable do.
   [[nodiscard]] bool fit(std::span<const float> values) const {
     const std::size_t channels = limits_.size();
-    bool fits = true;
     for (std::size_t i = 0; i < values.size(); i += channels) {
+      std::uint32_t over = 0;
       for (std::size_t c = 0; c < channels; ++c) {
-        fits = fits && (magnitude(values[i + c]) <= limits_[c] || !is_usable_sample(values[i + c]));
+        over |= magnitude(values[i + c]) > limits_[c] ? 1u : 0u;
+      }
+      if (over == 0) continue;
+      for (std::size_t c = 0; c < channels; ++c) {
+        const float value = values[i + c];
+        if (magnitude(value) > limits_[c] && is_usable_sample(value)) return false;
       }
     }
-    return fits;
+    return true;
   }
 
   /// Chooses units that the values fit. The first few that are 2^100 times as large as the unit, or

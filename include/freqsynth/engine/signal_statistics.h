@@ -53,7 +53,7 @@ class SignalStatistics {
         ranges_(channels),
         settled_variances_(channels),
         mean_squares_(channels),
-        exponents_(channels),
+        factors_(channels, 1.0f),
         variances_(channels) {}
 
   /// Takes in a usable value of a sample, in the host's unit.
@@ -107,7 +107,7 @@ class SignalStatistics {
   std::vector<double> settled_variances_, mean_squares_;
   bool settled_ = false;
   // In those in use:
-  std::vector<int> exponents_;
+  std::vector<float> factors_;  // of a value: 1 / unit
   std::vector<float> variances_;
   float variance_ = 0;
   float rounding_ = 0;
@@ -186,7 +186,7 @@ inline void SignalStatistics::settle(std::span<const float> weights) {
 
 inline void SignalStatistics::use_units(std::span<const int> exponents,
                                         std::span<const float> weights) {
-  exponents_.assign(exponents.begin(), exponents.end());
+  for (std::size_t c = 0; c < factors_.size(); ++c) factors_[c] = std::ldexp(1.0f, -exponents[c]);
   if (settled_) weigh(weights);
 }
 
@@ -196,7 +196,7 @@ inline void SignalStatistics::weigh(std::span<const float> weights) {
   rounding_ = 0;
   const double largest = double{*std::max_element(weights.begin(), weights.end())};
   for (std::size_t c = 0; c < sums_.size(); ++c) {
-    const double square = std::ldexp(1.0, -2 * exponents_[c]);
+    const double square = double{factors_[c]} * double{factors_[c]};
     const double variance = std::max(settled_variances_[c] * square, least);
     variances_[c] = static_cast<float>(variance);
     // Relative to the largest, so that with equal weights it is the plain mean to the bit.
@@ -210,7 +210,7 @@ inline void SignalStatistics::weigh(std::span<const float> weights) {
 }
 
 inline float SignalStatistics::most_variance(std::size_t channel) const {
-  const float width = std::ldexp(ranges_[channel].width(), -exponents_[channel]);
+  const float width = ranges_[channel].width() * factors_[channel];
   // A range of nothing says nothing.
   return variance_ > 0 && width > 0 ? 0.25f * width * width : without_limit;
 }
