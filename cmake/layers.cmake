@@ -18,6 +18,7 @@ set(FREQSYNTH_LAYERS
   "basis/shared_list.h|a reference to a list that several images share|4.3"
   "sampler.h|what a radiance function looks like, and requests|"
   "refine/refiner.h|what an estimator of blocks must do|4.1"
+  "refine/gap_log.h|samples that had no usable value, and what took their place|"
   "refine/least_squares_refiner.h|takes the next value of a block into its coefficients|4.1, 4.2"
   "refine/literal_refiner.h|the same, word by word: slow, and easy to believe|4.1"
   "engine/executor.h|how `run` uses threads|"

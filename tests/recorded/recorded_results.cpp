@@ -219,7 +219,7 @@ constexpr Configuration configurations[] = {
     {"threshold", threshold, 0x6f3e3abf65a3a5bcu},
     {"capped", capped, 0xc8d1033893062018u},
     {"other_list", other_list, 0x1b01fa18237930fcu},
-    {"bad_values", bad_values, 0x4698dfde7674716cu},
+    {"bad_values", bad_values, 0x5f83a97d42bcc66cu},
     {"high_range", high_range, 0x3c6872b524364890u},
     {"many_channels", many_channels, 0xed70f9418060d1f1u},
     {"outputs", outputs, 0x2658581d9abf8446u},

@@ -87,7 +87,9 @@ float BlockChoice<R, M>::priority_of(const BlockView<R>& view, std::uint32_t blo
   if (view.blocks.samples(block) == 0) return std::numeric_limits<float>::max();
   if (view.blocks.full(block)) return BlockQueue::absent;
   if (!wanted(block)) return 0;
-  return std::min(measure_.priority(view, block, factors_[block]), most_priority);
+  // A sample that has no usable value is worth nothing.
+  const float factor = factors_[block] * view.blocks.usable_share(block);
+  return std::min(measure_.priority(view, block, factor), most_priority);
 }
 
 template <Refiner R, BlockMeasure<R> M>

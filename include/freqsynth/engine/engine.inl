@@ -76,6 +76,8 @@ std::optional<StopReason> Engine<R, M>::prepare_wave() {
 template <Refiner R, BlockMeasure<R> M>
 void Engine<R, M>::reserve(std::size_t most) {
   wave_.reserve(most);
+  // Each sample goes to up to four blocks, and each may go on with its corners and what waits.
+  blocks_.reserve(20 * most + cache_.waiting());
   cache_.reserve(most);
   bad_.reserve(std::min(bad_.size() + most, most_bad_reported));
   // With its own sample a block may take in what its neighbours know before and after it.

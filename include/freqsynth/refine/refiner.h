@@ -11,6 +11,7 @@
 #include <array>
 #include <concepts>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 #include "freqsynth/basis/config.h"
@@ -22,6 +23,13 @@ class InverseList;
 /// Largest magnitude of a value, in the unit of the states, whose squares a refiner has to bear.
 inline constexpr float most_state_value = 0x1p50f;
 
+/// A sample that had no usable value: its index in the sequence, and what was absorbed in its
+/// place.
+struct Gap {
+  std::uint32_t sample = 0;  ///< index in the sequence
+  float value = 0;           ///< a prediction, no information
+};
+
 /// What an estimator says of one channel of a block; what images are made of.
 struct BlockFit {
   /// F (eqs. 1, 2) in zig-zag order; zeros when the channel had no usable value.
@@ -30,6 +38,9 @@ struct BlockFit {
   /// between pixels counts half, or a quarter, for each.
   std::span<const float, max_terms> pixel_sums;
   float residual = 0;  ///< variance of what the fit leaves over
+  /// Samples that are in the sums with a value that is none; the fit and the residual do without
+  /// them.
+  std::span<const Gap> gaps = {};
 };
 
 template <class R>
@@ -69,6 +80,18 @@ concept Refiner = requires(R& own, const R& refiner, float* state, const float* 
   /// The coefficients alone, and all that the block is after n samples.
   { refiner.coefficients(known, n, channel, coefficients) } -> std::same_as<void>;
   { refiner.fit(known, n, channel) } -> std::same_as<BlockFit>;
+};
+
+/// A refiner that puts a prediction in the place of a value that is not usable, and can tell later
+/// what the fit is without it.
+template <class R>
+concept FillsGaps = Refiner<R> && requires(const R& refiner, const float* known, std::size_t n,
+                                           std::size_t channel, std::span<const Gap> gaps) {
+  /// What absorb() of sample n will take for a value of the channel that is not usable; not a
+  /// number when it cannot yet: then the first value that is usable will stand for all before it.
+  { refiner.prediction(known, n, channel) } -> std::same_as<float>;
+  /// The fit without the samples in `gaps`.
+  { refiner.fit(known, n, channel, gaps) } -> std::same_as<BlockFit>;
 };
 
 }  // namespace freqsynth
