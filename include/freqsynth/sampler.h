@@ -37,8 +37,9 @@ struct Request {
   std::uint32_t slot = 0;  ///< the engine's own note; hand it back unchanged
 };
 
-/// Largest magnitude that a block can absorb: squares of sums of many such values stay finite.
-inline constexpr float max_sample_magnitude = 1e15f;
+/// Largest magnitude that is usable: the coefficients of such values, eight times as large, and
+/// what is added up of them, are within what a float can hold.
+inline constexpr float max_sample_magnitude = 1e36f;
 
 /// False for a value that is too large, infinite or not a number. Told from the bits, so that it is
 /// right in a caller that is compiled for finite numbers only (-ffast-math), too.

@@ -35,12 +35,12 @@ TEST(BadValues, UsableValuesAreFiniteAndNotHuge) {
   }
 }
 
-TEST(BadValues, LargestUsableValuesStayFinite) {
+TEST(BadValues, LargestStateValuesStayFinite) {
   const LeastSquaresRefiner refiner(shared_list(), 1);
   Block block(refiner);
   oracle::Random random(10);
   for (int n = 0; n < 1000; ++n) {
-    const float value = random.below(2) == 0 ? max_sample_magnitude : -max_sample_magnitude;
+    const float value = random.below(2) == 0 ? most_state_value : -most_state_value;
     ASSERT_TRUE(std::isfinite(block.add({value})));
     for (const float coefficient : block.coefficients()) ASSERT_TRUE(std::isfinite(coefficient));
   }

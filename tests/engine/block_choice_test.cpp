@@ -40,6 +40,8 @@ class ScriptedMeasure {
  public:
   explicit ScriptedMeasure(Script& script) : script_(&script) {}
 
+  void use_units(const BlockView<ScriptedRefiner>&, float) {}
+
   void absorbed(const BlockView<ScriptedRefiner>&, Block block, float change) {
     script_->absorbed.push_back({block, change});
   }

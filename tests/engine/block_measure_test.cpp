@@ -319,10 +319,10 @@ template <class Measure>
 void expect_finite(const PrioritySettings& settings, Measure measure) {
   const LeastSquaresRefiner refiner(helpers::shared_list(), 2, {1e6f, 1e6f});
   Image<LeastSquaresRefiner> image(2, 2, refiner, 400);
-  image.settle(0, max_sample_magnitude);
+  image.settle(0, most_state_value);
   for (int n = 0; n < 400; ++n) {
     for (Block block = 0; block < 4; ++block) {
-      const float value = (n + n / 3) % 2 == 0 ? max_sample_magnitude : -max_sample_magnitude;
+      const float value = (n + n / 3) % 2 == 0 ? most_state_value : -most_state_value;
       const float values[] = {value, block % 2 == 0 ? value : -value};
       const float change = image.blocks.absorb(block, values);
       measure.absorbed(image.view(), block, change);

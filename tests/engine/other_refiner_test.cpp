@@ -47,6 +47,16 @@ class MeanRefiner {
   /// and the number of usable values.
   [[nodiscard]] std::size_t state_size() const { return channels() * (max_terms + 3); }
   void reset(float* state) const { std::fill_n(state, state_size(), 0.0f); }
+  void weigh(std::span<const float> weights) { weights_.assign(weights.begin(), weights.end()); }
+  void rescale(float* state, std::size_t channel, int exponent) const {
+    for (std::size_t i = 0; i < max_terms; ++i) {
+      float& sum = state[channel * max_terms + i];
+      sum = std::ldexp(sum, exponent);
+    }
+    float* own = state + channels() * max_terms + 3 * channel;
+    own[0] = std::ldexp(own[0], exponent);
+    own[1] = std::ldexp(own[1], 2 * exponent);
+  }
   float absorb(float* state, std::size_t n, const float* values) const {
     float change = 0;
     for (std::size_t c = 0; c < channels(); ++c) {
@@ -120,6 +130,12 @@ struct WithoutWeights : MeanRefiner {
 struct WithoutStateSize : MeanRefiner {
   std::size_t state_size() const = delete;
 };
+struct WithoutWeigh : MeanRefiner {
+  void weigh(std::span<const float>) = delete;
+};
+struct WithoutRescale : MeanRefiner {
+  void rescale(float*, std::size_t, int) const = delete;
+};
 struct WithoutReset : MeanRefiner {
   void reset(float*) const = delete;
 };
@@ -168,6 +184,8 @@ static_assert(!Refiner<WithoutList>);
 static_assert(!Refiner<WithoutChannels>);
 static_assert(!Refiner<WithoutWeights>);
 static_assert(!Refiner<WithoutStateSize>);
+static_assert(!Refiner<WithoutWeigh>);
+static_assert(!Refiner<WithoutRescale>);
 static_assert(!Refiner<WithoutReset>);
 static_assert(!Refiner<WithoutAbsorb>);
 static_assert(!Refiner<WithoutPrefetch>);
@@ -187,6 +205,8 @@ static_assert(!Refiner<int>);
 class FewestSamples {
  public:
   template <Refiner R>
+  void use_units(const BlockView<R>&, float) {}
+  template <Refiner R>
   void absorbed(const BlockView<R>&, std::uint32_t, float) {}
   template <Refiner R>
   [[nodiscard]] float priority(const BlockView<R>& view, std::uint32_t block, float) const {
@@ -200,6 +220,10 @@ struct WithoutPriority : FewestSamples {
   template <Refiner R>
   float priority(const BlockView<R>&, std::uint32_t, float) const = delete;
 };
+struct WithoutUnits : FewestSamples {
+  template <Refiner R>
+  void use_units(const BlockView<R>&, float) = delete;
+};
 struct WithoutNews : FewestSamples {
   bool has_news(std::uint32_t) = delete;
 };
@@ -208,6 +232,7 @@ static_assert(BlockMeasure<FewestSamples, MeanRefiner>);
 static_assert(BlockMeasure<ChangeMeasure, MeanRefiner>);
 static_assert(BlockMeasure<ResidualMeasure, MeanRefiner>);
 static_assert(!BlockMeasure<WithoutPriority, MeanRefiner>);
+static_assert(!BlockMeasure<WithoutUnits, MeanRefiner>);
 static_assert(!BlockMeasure<WithoutNews, MeanRefiner>);
 static_assert(!BlockMeasure<MeanRefiner, MeanRefiner>);
 
@@ -287,7 +312,8 @@ void expect_means(const BlockGrid& grid, const Blocks& blocks) {
       const auto coefficients = image.coefficients(grid.column(b), grid.row(b), c);
       ASSERT_NEAR(coefficients[0] / 8, static_cast<double>(expected.mean), bound) << "block " << b;
       for (std::size_t i = 1; i < max_terms; ++i) ASSERT_EQ(coefficients[i], 0);
-      ASSERT_NEAR(blocks.residual(b, c) * blocks.freedom(b), static_cast<double>(expected.squares),
+      const float residual = std::ldexp(blocks.residual(b, c), 2 * blocks.exponent(c));
+      ASSERT_NEAR(residual * blocks.freedom(b), static_cast<double>(expected.squares),
                   4 * static_cast<double>(n) * bound);
     }
   }

@@ -140,8 +140,8 @@ TEST(UsableSample, IsToldFromTheBits) {
   EXPECT_TRUE(is_usable_sample(max_sample_magnitude));
   EXPECT_TRUE(is_usable_sample(-max_sample_magnitude));
   EXPECT_TRUE(is_usable_sample(1e-45f));
-  EXPECT_FALSE(is_usable_sample(std::nextafter(max_sample_magnitude, 2e15f)));
-  EXPECT_FALSE(is_usable_sample(-std::nextafter(max_sample_magnitude, 2e15f)));
+  EXPECT_FALSE(is_usable_sample(std::nextafter(max_sample_magnitude, 2e36f)));
+  EXPECT_FALSE(is_usable_sample(-std::nextafter(max_sample_magnitude, 2e36f)));
   EXPECT_FALSE(is_usable_sample(std::numeric_limits<float>::infinity()));
   EXPECT_FALSE(is_usable_sample(-std::numeric_limits<float>::infinity()));
   EXPECT_FALSE(is_usable_sample(std::numeric_limits<float>::quiet_NaN()));

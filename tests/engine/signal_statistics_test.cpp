@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "freqsynth/engine/signal_statistics.h"
-#include "freqsynth/sampler.h"
+#include "freqsynth/refine/refiner.h"
 
 #include <gtest/gtest.h>
 
@@ -58,7 +58,8 @@ Real variance(const Corners& corners, std::size_t channel) {
 TEST(SignalStatistics, VarianceIsThatOfTwoPasses) {
   for (const std::size_t count : {2u, 3u, 50u, 4000u}) {
     const Corners corners = random_corners(count, {0, 3, -40}, 1.5, static_cast<unsigned>(count));
-    const SignalStatistics signal = settled(corners, {1, 1, 1});
+    const std::vector<float> weights = {0.5f, 0, 2};
+    const SignalStatistics signal = settled(corners, weights);
     Real sum = 0;
     for (std::size_t c = 0; c < 3; ++c) {
       const auto expected = static_cast<double>(variance(corners, c));
@@ -67,9 +68,9 @@ TEST(SignalStatistics, VarianceIsThatOfTwoPasses) {
       const double bound =
           float_rounding * expected + 4 * static_cast<double>(count) * double_rounding * square;
       EXPECT_NEAR(signal.variance(c), expected, bound) << count << " corners, channel " << c;
-      sum += variance(corners, c);
+      sum += static_cast<Real>(weights[c]) * variance(corners, c);
     }
-    const auto expected = static_cast<double>(sum / 3);
+    const auto expected = static_cast<double>(sum);
     EXPECT_NEAR(signal.variance(), expected, 1e-6 * expected) << count << " corners";
   }
 }
@@ -98,7 +99,7 @@ TEST(SignalStatistics, TheDoubtIsTheLeast) {
 TEST(SignalStatistics, NothingAtAllLeavesDoubtToo) {
   // Whoever asks for a variance of 0 learns that it is not settled.
   for (const SignalStatistics& signal :
-       {settled({}, {1, 1}), settled(Corners(7, {0, 0}), {1, 1})}) {
+       {settled({}, {0.5f, 0.5f}), settled(Corners(7, {0, 0}), {0.5f, 0.5f})}) {
     EXPECT_FLOAT_EQ(signal.variance(), 1e-24f);
     EXPECT_FLOAT_EQ(signal.variance(1), 1e-24f);
     EXPECT_EQ(signal.rounding(), 0);
@@ -150,14 +151,14 @@ TEST(SignalStatistics, RoundingIsAShareOfTheWeightedPower) {
   EXPECT_EQ(signal.variance(), variance_before);
 }
 
-TEST(SignalStatistics, LargestUsableValuesStayFinite) {
+TEST(SignalStatistics, LargestStateValuesStayFinite) {
   Corners corners;
   for (int i = 0; i < 1000; ++i) {
-    corners.push_back({i % 2 == 0 ? max_sample_magnitude : -max_sample_magnitude});
+    corners.push_back({i % 2 == 0 ? most_state_value : -most_state_value});
   }
-  const SignalStatistics signal = settled(corners, {1e6f});
-  EXPECT_FLOAT_EQ(signal.variance(), 1e30f);
-  EXPECT_FLOAT_EQ(signal.rounding(), 1e24f);
+  const SignalStatistics signal = settled(corners, {4});
+  EXPECT_FLOAT_EQ(signal.variance(), 4 * most_state_value * most_state_value);
+  EXPECT_FLOAT_EQ(signal.rounding(), 4e-12f * most_state_value * most_state_value);
 }
 
 }  // namespace

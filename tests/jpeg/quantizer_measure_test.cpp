@@ -207,13 +207,13 @@ TEST(QuantizerMeasure, IsANumberForTheLargestValuesAndTheSmallestSteps) {
     const BlockGrid grid = BlockGrid::of(16, 8, 1);
     BlockStore<LeastSquaresRefiner> blocks(refiner, 2, 400);
     SignalStatistics signal(1);
-    for (const float value : {max_sample_magnitude, -max_sample_magnitude}) signal.add(&value);
+    for (const float value : {most_state_value, -most_state_value}) signal.add(&value);
     signal.settle(refiner.weights());
     const BlockView<LeastSquaresRefiner> view{grid, blocks, signal};
     QuantizerMeasure measure(target, {.uncertainty = 1e6, .neighbours = 1e6}, false, 2, 400);
     for (int n = 0; n < 400; ++n) {
       for (const Block block : {Block{0}, Block{1}}) {
-        const float value = (n + n / 3) % 2 == 0 ? max_sample_magnitude : -max_sample_magnitude;
+        const float value = (n + n / 3) % 2 == 0 ? most_state_value : -most_state_value;
         measure.absorbed(view, block, blocks.absorb(block, &value));
         const float priority = measure.priority(view, block, 1);
         ASSERT_TRUE(std::isfinite(priority)) << "step " << step << ", sample " << n;

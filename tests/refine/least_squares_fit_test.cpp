@@ -145,7 +145,7 @@ TEST_P(LeastSquaresFit, ResidualOfManyLargestValuesIsTheirVariance) {
   detail::AlignedVector<float> state(refiner.state_size());
   refiner.reset(state.data());
   for (std::size_t n = 1; n <= 30000; ++n) {
-    const float value = n % 2 == 0 ? max_sample_magnitude : -max_sample_magnitude;
+    const float value = n % 2 == 0 ? most_state_value : -most_state_value;
     refiner.absorb(state.data(), n - 1, &value);
     ASSERT_FLOAT_EQ(refiner.residual(state.data(), n), refiner.residual(state.data(), n, 0))
         << n << " samples";
@@ -215,7 +215,7 @@ TEST_P(LeastSquaresFit, OfAChannelWithoutAUsableValueIsZero) {
   Fed block(refiner);
   oracle::Random random(4);
   for (int n = 0; n < 60; ++n) {
-    block.add({random.value(), n % 2 == 0 ? std::bit_cast<float>(0x7fc00000u) : 2e15f});
+    block.add({random.value(), n % 2 == 0 ? std::bit_cast<float>(0x7fc00000u) : 2e36f});
     const BlockFit fit = refiner.fit(block.state(), block.samples(), 1);
     ASSERT_EQ(fit.coefficients, (std::array<float, max_terms>{}));
     ASSERT_EQ(fit.residual, 0);

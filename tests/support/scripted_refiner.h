@@ -36,6 +36,11 @@ class ScriptedRefiner {
 
   [[nodiscard]] const InverseList& list() const { return *list_; }
   [[nodiscard]] std::size_t channels() const { return weights_.size(); }
+  void weigh(std::span<const float> weights) { weights_.assign(weights.begin(), weights.end()); }
+  /// What it is told are residuals, squares.
+  void rescale(float* state, std::size_t channel, int exponent) const {
+    state[channel] = std::ldexp(state[channel], 2 * exponent);
+  }
   [[nodiscard]] std::span<const float> weights() const { return weights_; }
   /// The values, and the number of samples; no whole number of cache lines.
   [[nodiscard]] std::size_t state_size() const { return channels() + 1; }

@@ -37,6 +37,8 @@ class BlockChoice {
 
   /// Share of what is owed to every block that is owed to this one: its factor, at most 1.
   [[nodiscard]] float share(std::uint32_t block) const { return std::min(factors_[block], 1.0f); }
+  /// See BlockMeasure.
+  void use_units(const BlockView<R>& view, float factor);
 
   /// A block has taken in a sample, which changed it by `change`.
   void absorbed(const BlockView<R>& view, std::uint32_t block, float change) {
@@ -65,6 +67,17 @@ BlockChoice<R, M>::BlockChoice(M measure, std::vector<float> factors)
     : measure_(std::move(measure)), factors_(std::move(factors)), queue_(factors_.size()) {}
 
 template <Refiner R, BlockMeasure<R> M>
+void BlockChoice<R, M>::use_units(const BlockView<R>& view, float factor) {
+  measure_.use_units(view, factor);
+  if (factor == 1) return;
+  for (std::size_t b = 0; b < queue_.size(); ++b) {
+    const float priority = queue_.priority(b);
+    // Blocks without a sample stay the most urgent ones.
+    if (priority >= 0 && priority <= most_priority) queue_.update(b, priority * factor);
+  }
+}
+
+template <Refiner R, BlockMeasure<R> M>
 std::uint32_t BlockChoice<R, M>::take() {
   const auto block = static_cast<std::uint32_t>(queue_.top());
   take(block);
@@ -76,7 +89,9 @@ float BlockChoice<R, M>::priority_of(const BlockView<R>& view, std::uint32_t blo
   if (view.blocks.samples(block) == 0) return std::numeric_limits<float>::max();
   if (view.blocks.full(block)) return BlockQueue::absent;
   if (!wanted(block)) return 0;
-  return std::min(measure_.priority(view, block, factors_[block]), most_priority);
+  // A sample that has no usable value is worth nothing.
+  const float factor = factors_[block] * view.blocks.usable_share(block);
+  return std::min(measure_.priority(view, block, factor), most_priority);
 }
 
 template <Refiner R, BlockMeasure<R> M>

@@ -31,6 +31,9 @@ struct BlockView {
 template <class M, class R>
 concept BlockMeasure = requires(M& measure, const M& known, const BlockView<R>& view,
                                 std::uint32_t block, float value) {
+  /// Blocks use other units from now on (BlockStore::use_units), in which a square over all
+  /// channels is `value` times what it was.
+  { measure.use_units(view, value) } -> std::same_as<void>;
   /// A block has taken in a sample, which changed it by `value`.
   { measure.absorbed(view, block, value) } -> std::same_as<void>;
   /// Priority of a block that has had a sample, and is not full; `value` is a factor on it. 0 when
@@ -70,6 +73,12 @@ class ChangeMeasure {
 
   /// See BlockMeasure.
   template <Refiner R>
+  void use_units(const BlockView<R>&, float factor) {
+    for (float& variation : variations_) variation *= factor;
+  }
+
+  /// See BlockMeasure.
+  template <Refiner R>
   void absorbed(const BlockView<R>& view, std::uint32_t block, float change) {
     // A plausible change is about that of a fit of T terms to n values in the signal's range.
     const std::size_t taken = view.blocks.samples(block);
@@ -104,6 +113,13 @@ class ResidualBook {
  public:
   /// All residuals are 0.
   explicit ResidualBook(std::size_t blocks) : residuals_(blocks), told_(blocks) {}
+
+  /// In other units all residuals are so many times as large.
+  void rescale(float factor) {
+    sum_ = 0;
+    for (float& residual : residuals_) sum_ += double{residual *= factor};
+    for (float& residual : told_) residual *= factor;
+  }
 
   /// A block has taken in a sample.
   template <Refiner R>
@@ -167,6 +183,12 @@ class ResidualMeasure {
         neighbours_(static_cast<float>(settings.neighbours)),
         image_(static_cast<float>(settings.image)),
         book_(blocks) {}
+
+  /// See BlockMeasure.
+  template <Refiner R>
+  void use_units(const BlockView<R>&, float factor) {
+    book_.rescale(factor);
+  }
 
   /// See BlockMeasure.
   template <Refiner R>

@@ -4,14 +4,20 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "freqsynth/basis/aligned.h"
 #include "freqsynth/basis/config.h"
+#include "freqsynth/basis/float_bits.h"
+#include "freqsynth/refine/gap_log.h"
 #include "freqsynth/refine/refiner.h"
+#include "freqsynth/sampler.h"
 
 namespace freqsynth {
 
@@ -37,6 +43,13 @@ class BlockStore {
   /// Samples of the block that has the most.
   [[nodiscard]] std::size_t largest() const { return largest_; }
 
+  /// Changes the units that states are kept in, at first 1: each channel's is 2 to the power of its
+  /// exponent, in -126..126. Values come in the host's unit; all that is said of a block is in
+  /// these. `weights` are those of the channels in their new units.
+  void use_units(std::span<const int> exponents, std::span<const float> weights);
+  /// Binary logarithm of a channel's unit.
+  [[nodiscard]] int exponent(std::size_t channel) const { return exponents_[channel]; }
+
   /// Takes in the next sample of a block that is not full. \return the refiner's measure of change.
   float absorb(std::size_t block, const float* values);
   /// Hints that sample `index` of a block will be absorbed soon.
@@ -46,14 +59,19 @@ class BlockStore {
 
   // What the refiner says of a block; see the concept.
   /// See Refiner.
-  [[nodiscard]] float freedom(std::size_t block) const { return refiner_.freedom(counts_[block]); }
+  // Predictions in the place of values that are not usable are no agreement: they are no degrees of
+  // freedom.
+  /// See Refiner.
+  [[nodiscard]] float freedom(std::size_t block) const { return refiner_.freedom(informed(block)); }
   /// See Refiner.
   [[nodiscard]] float residual(std::size_t block) const {
-    return refiner_.residual(state(block), counts_[block]);
+    const float residual = refiner_.residual(state(block), counts_[block]);
+    return missing_[block] == 0 ? residual : residual * undiluted(block);
   }
   /// See Refiner.
   [[nodiscard]] float residual(std::size_t block, std::size_t channel) const {
-    return refiner_.residual(state(block), counts_[block], channel);
+    const float residual = refiner_.residual(state(block), counts_[block], channel);
+    return missing_[block] == 0 ? residual : residual * undiluted(block);
   }
   /// See Refiner.
   void coefficients(std::size_t block, std::size_t channel, std::span<float, max_terms> out) const {
@@ -63,26 +81,58 @@ class BlockStore {
   [[nodiscard]] BlockFit fit(std::size_t block, std::size_t channel) const {
     return refiner_.fit(state(block), counts_[block], channel);
   }
+  /// The fit without the samples that had no usable value in this channel. It refers to `gaps`,
+  /// which receives them.
+  [[nodiscard]] BlockFit fit_without_gaps(std::size_t block, std::size_t channel,
+                                          std::vector<Gap>& gaps) const;
+  /// Samples of a block that had a usable value in all channels that have a weight.
+  [[nodiscard]] std::uint32_t informed(std::size_t block) const {
+    return counts_[block] - missing_[block];
+  }
+  /// Probability that the next sample of a block is one of these (Laplace), 1 where all have been.
+  [[nodiscard]] float usable_share(std::size_t block) const {
+    if (missing_[block] == 0) return 1;
+    return static_cast<float>(informed(block) + 1) / static_cast<float>(counts_[block] + 1);
+  }
+  /// Makes room, so that the next `more` calls of absorb() cannot fail.
+  void reserve(std::size_t more) { gaps_.reserve(more * refiner_.channels()); }
 
  private:
   [[nodiscard]] const float* state(std::size_t block) const {
     return states_.data() + block * stride_;
   }
 
+  [[nodiscard]] float undiluted(std::size_t block) const {
+    return refiner_.freedom(counts_[block]) / freedom(block);
+  }
+  void note_gaps(std::size_t block, std::size_t index, const float* values);
+
   R refiner_;
   std::size_t most_samples_;
   std::size_t stride_;  // whole cache lines
   detail::AlignedVector<float> states_;
   std::vector<std::uint32_t> counts_;
+  std::vector<std::uint32_t> missing_;  // of these, without a usable value where it counts
+  GapLog gaps_;
   std::size_t untouched_;
   std::size_t largest_ = 0;
+  std::vector<int> exponents_;
+  std::vector<float> factors_;  // of a value: 1 / unit
+  std::vector<float> values_;   // of a sample in the channels' units
 };
 
 // ------------------------------------------------------------------------------------ definitions
 
 template <Refiner R>
 BlockStore<R>::BlockStore(R refiner, std::size_t blocks, std::size_t most_samples)
-    : refiner_(std::move(refiner)), most_samples_(most_samples), counts_(blocks) {
+    : refiner_(std::move(refiner)),
+      most_samples_(most_samples),
+      counts_(blocks),
+      missing_(blocks),
+      gaps_(blocks) {
+  exponents_.assign(refiner_.channels(), 0);
+  factors_.assign(refiner_.channels(), 1.0f);
+  values_.resize(refiner_.channels());
   constexpr std::size_t line = detail::alignment / sizeof(float);
   stride_ = (refiner_.state_size() + line - 1) / line * line;
   states_.resize(blocks * stride_);
@@ -91,14 +141,68 @@ BlockStore<R>::BlockStore(R refiner, std::size_t blocks, std::size_t most_sample
 }
 
 template <Refiner R>
+void BlockStore<R>::use_units(std::span<const int> exponents, std::span<const float> weights) {
+  refiner_.weigh(weights);
+  for (std::size_t c = 0; c < exponents_.size(); ++c) {
+    const int difference = exponents_[c] - exponents[c];
+    if (difference == 0) continue;
+    exponents_[c] = exponents[c];
+    factors_[c] = std::ldexp(1.0f, -exponents[c]);
+    gaps_.rescale(c, std::ldexp(1.0f, difference));
+    for (std::size_t b = 0; b < size(); ++b) {
+      if (counts_[b] > 0) refiner_.rescale(states_.data() + b * stride_, c, difference);
+    }
+  }
+}
+
+template <Refiner R>
 float BlockStore<R>::absorb(std::size_t block, const float* values) {
   FREQSYNTH_ASSERT(!full(block));
   std::uint32_t& count = counts_[block];
   if (count == 0) --untouched_;
-  const float change = refiner_.absorb(states_.data() + block * stride_, count, values);
+  bool bad = false;
+  for (std::size_t c = 0; c < factors_.size(); ++c) {
+    // What is not usable in the host's unit is not in any.
+    const bool usable = is_usable_sample(values[c]);
+    values_[c] = usable ? values[c] * factors_[c] : std::bit_cast<float>(0x7fc00000u);
+    bad = bad || !usable;
+  }
+  if (bad || gaps_.any(block)) [[unlikely]] {
+    note_gaps(block, count, values_.data());
+  }
+  const float change = refiner_.absorb(states_.data() + block * stride_, count, values_.data());
   ++count;
   largest_ = std::max<std::size_t>(largest_, count);
   return change;
+}
+
+/// Before a block takes in a sample.
+template <Refiner R>
+void BlockStore<R>::note_gaps(std::size_t block, std::size_t index, const float* values) {
+  if constexpr (FillsGaps<R>) {
+    const std::span<const float> weights = refiner_.weights();
+    bool missing = false;
+    for (std::size_t c = 0; c < factors_.size(); ++c) {
+      const bool usable = is_usable_sample(values[c]);
+      missing = missing || (!usable && weights[c] > 0);
+      const float prediction = refiner_.prediction(state(block), index, c);
+      if (!usable) gaps_.add(block, c, index, prediction);
+      if (usable && detail::is_nan(prediction)) gaps_.start(block, c, values[c]);
+    }
+    missing_[block] += missing ? 1 : 0;
+  }
+}
+
+template <Refiner R>
+BlockFit BlockStore<R>::fit_without_gaps(std::size_t block, std::size_t channel,
+                                         std::vector<Gap>& gaps) const {
+  if constexpr (FillsGaps<R>) {
+    if (gaps_.any(block)) {
+      gaps = gaps_.of(block, channel);
+      return refiner_.fit(state(block), counts_[block], channel, gaps);
+    }
+  }
+  return fit(block, channel);
 }
 
 }  // namespace freqsynth

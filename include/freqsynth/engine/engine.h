@@ -28,7 +28,9 @@
 #include "freqsynth/engine/block_measure.h"
 #include "freqsynth/engine/block_set.h"
 #include "freqsynth/engine/block_store.h"
+#include "freqsynth/engine/channel_units.h"
 #include "freqsynth/engine/edge_cache.h"
+#include "freqsynth/engine/exploration.h"
 #include "freqsynth/engine/signal_statistics.h"
 #include "freqsynth/engine/stop_rule.h"
 #include "freqsynth/engine/wave.h"
@@ -94,13 +96,13 @@ class Engine {
   void reserve(std::size_t most);
   void choose(std::uint32_t block);
   void choose_lagging(std::size_t most);
-  [[nodiscard]] bool lags(std::uint32_t block) const;
   void choose_least_sampled(std::size_t most);
   [[nodiscard]] StopReason reason(StopReason why) const;
   [[nodiscard]] bool asked_by_neighbour(std::uint32_t block, std::uint32_t index) const;
   [[nodiscard]] Request make_request(std::uint32_t slot) const;
   void claim(std::span<const Request> requests);
   void finish_wave();
+  void change_units();
   void route(const Wave::Slot& slot, const float* values);
   void note(const Wave::Slot& slot, const float* values);
   void absorb(std::uint32_t block, const float* values);
@@ -109,19 +111,18 @@ class Engine {
   BlockGrid grid_;
   BlockStore<R> blocks_;
   EdgeCache cache_;
+  ChannelUnits units_;
   SignalStatistics signal_;
   BlockChoice<R, M> choice_;
   Wave wave_;
   BlockSet touched_;  // blocks that the wave asks for, or that it has changed
   std::size_t wave_size_;
-  double exploration_;
-  double shares_ = 0;                   // of all blocks, see BlockChoice::share()
-  double least_ = 0;                    // samples that a block with a share of 1 must have by now
-  std::vector<std::uint32_t> lagging_;  // those with fewer, when that number grew last
-  std::size_t next_lagging_ = 0;
+  Exploration exploration_;
+  double shares_ = 0;  // of all blocks, see BlockChoice::share()
   StopRule stop_;
   SynthesisStats stats_;
-  bool any_usable_ = false;  // whether there was a usable value
+  std::vector<bool> counts_;  // channels whose values can make a sample bad
+  bool any_usable_ = false;   // whether there was a usable value
   std::uint64_t patience_ = unusable_at_most;
   std::vector<BadSample> bad_;
   mutable std::mutex mutex_;

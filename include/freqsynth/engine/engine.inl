@@ -11,18 +11,22 @@ Engine<R, M>::Engine(const BlockGrid& grid, BlockStore<R> blocks, M measure,
     : grid_(grid),
       blocks_(std::move(blocks)),
       cache_(grid, blocks_.refiner().channels()),
+      units_(blocks_.refiner().weights()),
       signal_(blocks_.refiner().channels()),
       choice_(std::move(measure), std::move(factors)),
       wave_(blocks_.refiner().channels()),
       touched_(grid.size()),
-      exploration_(exploration) {
+      exploration_(exploration, grid.size()) {
   const std::size_t most = std::max<std::size_t>(grid.size(), 1);
   wave_size_ = wave != 0 ? std::min(wave, most) : std::max<std::size_t>(most / 32, 1);
   stats_.blocks = grid.size();
   for (std::uint32_t block = 0; block < grid.size(); ++block) {
     shares_ += double{choice_.share(block)};
   }
-  lagging_.reserve(grid.size());
+  blocks_.use_units(units_.exponents(), units_.weights());
+  for (const float weight : units_.weights()) counts_.push_back(weight > 0);
+  const bool none = std::none_of(counts_.begin(), counts_.end(), [](bool one) { return one; });
+  if (none) counts_.assign(counts_.size(), true);
   choice_.revise_all(view());
 }
 
@@ -60,8 +64,10 @@ std::optional<StopReason> Engine<R, M>::prepare_wave() {
   }
   const std::size_t most = std::min<std::uint64_t>(wave_size_, stop_.samples - stats_.samples);
   reserve(most);
-  const auto threshold = static_cast<float>(
-      std::min(stop_.aliasing_threshold * stop_.aliasing_threshold, double{most_priority}));
+  // In the unit of the priorities. Of a signal that is all 0 so far, everything is below it.
+  const double rule = std::ldexp(stop_.aliasing_threshold, -units_.exponent());
+  const double square = units_.known() || rule == 0 ? rule * rule : double{most_priority};
+  const auto threshold = static_cast<float>(std::min(square, double{most_priority}));
   choose_lagging(most);
   while (wave_.size() < most && choice_.top_priority() > threshold) choose(choice_.take());
   if (!wave_.empty()) return std::nullopt;
@@ -75,6 +81,8 @@ std::optional<StopReason> Engine<R, M>::prepare_wave() {
 template <Refiner R, BlockMeasure<R> M>
 void Engine<R, M>::reserve(std::size_t most) {
   wave_.reserve(most);
+  // Each sample goes to up to four blocks, and each may go on with its corners and what waits.
+  blocks_.reserve(20 * most + cache_.waiting());
   cache_.reserve(most);
   bad_.reserve(std::min(bad_.size() + most, most_bad_reported));
   // With its own sample a block may take in what its neighbours know before and after it.
@@ -89,33 +97,20 @@ void Engine<R, M>::choose(std::uint32_t block) {
   touched_.add(block);
 }
 
-/// Whether a block has fewer samples than every block should have by now.
-template <Refiner R, BlockMeasure<R> M>
-bool Engine<R, M>::lags(std::uint32_t block) const {
-  return blocks_.samples(block) < least_ * double{choice_.share(block)} && !blocks_.full(block);
-}
-
 /// Chooses blocks that have stayed behind the others.
 template <Refiner R, BlockMeasure<R> M>
 void Engine<R, M>::choose_lagging(std::size_t most) {
-  if (exploration_ == 0 || shares_ == 0 || blocks_.untouched() != 0) return;
-  const double mean = static_cast<double>(stats_.absorbed) / shares_;
-  const double least = std::floor(std::pow(mean, exploration_));
-  // All blocks are looked at only when the number has grown: less than once in a sample of each.
-  if (least > least_) {
-    least_ = least;
-    next_lagging_ = 0;
-    lagging_.clear();
-    for (std::uint32_t block = 0; block < blocks_.size(); ++block) {
-      if (lags(block)) lagging_.push_back(block);
-    }
-  }
-  for (; wave_.size() < most && next_lagging_ < lagging_.size(); ++next_lagging_) {
-    const std::uint32_t block = lagging_[next_lagging_];
-    if (!lags(block)) continue;
+  if (shares_ == 0 || blocks_.untouched() != 0) return;
+  const auto lags = [&](std::uint32_t block, double least) {
+    return blocks_.samples(block) < least * double{choice_.share(block)} && !blocks_.full(block);
+  };
+  exploration_.update(static_cast<double>(stats_.absorbed) / shares_, lags);
+  exploration_.visit(lags, [&](std::uint32_t block) {
+    if (wave_.size() >= most) return false;
     choice_.take(block);
     choose(block);
-  }
+    return true;
+  });
 }
 
 /// Chooses blocks that the threshold may not pass over yet.
@@ -196,6 +191,7 @@ template <Refiner R, BlockMeasure<R> M>
 void Engine<R, M>::finish_wave() {
   // The states of blocks lie all over the memory: fetch those that come soon.
   constexpr std::size_t ahead = 6;
+  if (!units_.fit(wave_.values())) change_units();
   for (std::size_t i = 0; i < wave_.size(); ++i) {
     if (i + ahead < wave_.size()) {
       const auto [block, index] = wave_.slot(i + ahead);
@@ -207,7 +203,7 @@ void Engine<R, M>::finish_wave() {
   stats_.samples += wave_.size();
   ++stats_.waves;
   wave_.clear();
-  if (blocks_.untouched() == 0 && signal_.variance() == 0) {
+  if (blocks_.untouched() == 0 && !signal_.settled()) {
     signal_.settle(blocks_.refiner().weights());
     choice_.revise_all(view());
   } else {
@@ -216,17 +212,38 @@ void Engine<R, M>::finish_wave() {
   touched_.clear();
 }
 
+/// Values have come that blocks cannot take in in their units. To change these rounds nothing.
+template <Refiner R, BlockMeasure<R> M>
+void Engine<R, M>::change_units() {
+  const int before = units_.exponent();
+  const bool known = units_.known();
+  units_.revise(wave_.values());
+  blocks_.use_units(units_.exponents(), units_.weights());
+  signal_.use_units(units_.exponents(), units_.weights());
+  // Where all was 0 it still is. Units grow, once they are known.
+  const int growth = known ? units_.exponent() - before : 0;
+  choice_.use_units(view(), std::ldexp(1.0f, -2 * growth));
+}
+
 /// Looks at a sample as such.
 template <Refiner R, BlockMeasure<R> M>
 void Engine<R, M>::note(const Wave::Slot& slot, const float* values) {
   const std::size_t channels = blocks_.refiner().channels();
   const SequencePosition& place = position(slot.index);
-  std::size_t usable = 0;
-  for (std::size_t c = 0; c < channels; ++c) usable += is_usable_sample(values[c]) ? 1 : 0;
-  any_usable_ = any_usable_ || usable > 0;
-  if (usable == channels) {
-    signal_.note(values);
-    if (place.side == BlockSide::corner) signal_.add(values);
+  bool bad = false, ignored = false;
+  for (std::size_t c = 0; c < channels; ++c) {
+    if (is_usable_sample(values[c])) {
+      signal_.note(c, values[c]);
+      if (place.side == BlockSide::corner) signal_.add(c, values[c]);
+      any_usable_ = any_usable_ || counts_[c];
+    } else if (counts_[c]) {
+      bad = true;
+    } else {
+      ignored = true;
+    }
+  }
+  if (!bad) {
+    stats_.ignored_bad_samples += ignored ? 1 : 0;
     return;
   }
   ++stats_.bad_samples;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -47,17 +48,32 @@ class SignalStatistics {
  public:
   /// Nothing is known yet.
   explicit SignalStatistics(std::size_t channels)
-      : sums_(channels), corner_ranges_(channels), ranges_(channels), variances_(channels) {}
+      : sums_(channels),
+        corner_ranges_(channels),
+        ranges_(channels),
+        settled_variances_(channels),
+        mean_squares_(channels),
+        factors_(channels, 1.0f),
+        variances_(channels) {}
 
-  /// Takes in the usable values of a sample, one per channel.
+  /// Takes in a usable value of a sample, in the host's unit.
+  void note(std::size_t channel, float value) { ranges_[channel].add(value); }
+  /// Takes in that of a corner, too.
+  void add(std::size_t channel, float value);
+  /// Takes in usable values of a sample, one per channel.
   void note(const float* values);
   /// Takes in those of a corner, too.
   void add(const float* values);
 
   /// Settles the variances from what has been added. `weights` are those of the channels.
   void settle(std::span<const float> weights);
+  /// Whether it is.
+  [[nodiscard]] bool settled() const { return settled_; }
+  /// Says all in these units: each channel's is 2 to the power of its exponent. At first they are
+  /// 1. `weights` are those of the channels in these units.
+  void use_units(std::span<const int> exponents, std::span<const float> weights);
 
-  /// Variance of the signal, mean over the channels; 0 until it is settled.
+  /// Variance of the signal, weighted over the channels; 0 until it is settled.
   [[nodiscard]] float variance() const { return variance_; }
   /// The same of one channel.
   [[nodiscard]] float variance(std::size_t channel) const { return variances_[channel]; }
@@ -73,6 +89,7 @@ class SignalStatistics {
  private:
   struct Sums {
     double values = 0, squares = 0;
+    std::uint64_t count = 0;  // with those that are kept aside
 
     void add(double value) {
       values += value;
@@ -80,9 +97,17 @@ class SignalStatistics {
     }
   };
 
+  void weigh(std::span<const float> weights);
+
+  static constexpr float without_limit = 1e31f;  // no usable samples have a larger variance
+
+  // In the host's units:
   std::vector<Sums> sums_;  // of the corners
-  std::uint64_t count_ = 0;
   std::vector<UsualRange> corner_ranges_, ranges_;
+  std::vector<double> settled_variances_, mean_squares_;
+  bool settled_ = false;
+  // In those in use:
+  std::vector<float> factors_;  // of a value: 1 / unit
   std::vector<float> variances_;
   float variance_ = 0;
   float rounding_ = 0;
@@ -132,38 +157,60 @@ inline void SignalStatistics::note(const float* values) {
   for (std::size_t c = 0; c < ranges_.size(); ++c) ranges_[c].add(values[c]);
 }
 
+inline void SignalStatistics::add(std::size_t channel, float value) {
+  if (const auto kept = corner_ranges_[channel].add(value)) sums_[channel].add(double{*kept});
+  ++sums_[channel].count;
+}
+
 inline void SignalStatistics::add(const float* values) {
-  for (std::size_t c = 0; c < sums_.size(); ++c) {
-    if (const auto value = corner_ranges_[c].add(values[c])) sums_[c].add(double{*value});
-  }
-  ++count_;
+  for (std::size_t c = 0; c < sums_.size(); ++c) add(c, values[c]);
 }
 
 inline void SignalStatistics::settle(std::span<const float> weights) {
-  double sum = 0;
-  rounding_ = 0;
-  const double count = static_cast<double>(std::max<std::uint64_t>(count_, 1));
+  settled_ = true;
   for (std::size_t c = 0; c < sums_.size(); ++c) {
     // The outermost values only now, for one that is stray would take all digits of the sums.
     const UsualRange& range = corner_ranges_[c];
     Sums all = sums_[c];
+    const double count = static_cast<double>(std::max<std::uint64_t>(all.count, 1));
     range.visit_kept([&](float value) { all.add(double{range.plausible(value)}); });
     const double mean = all.values / count;
     const double mean_square = all.squares / count;
     // A flat first impression leaves some doubt, in proportion to the level, so that blocks stay in
     // order.
-    const double least = std::max(1e-6 * mean_square, 1e-24);
-    const double variance = std::max(mean_square - mean * mean, least);
-    variances_[c] = static_cast<float>(variance);
-    sum += variance;
-    rounding_ += static_cast<float>(1e-12 * mean_square) * weights[c];
+    settled_variances_[c] = std::max(mean_square - mean * mean, 1e-6 * mean_square);
+    mean_squares_[c] = mean_square;
   }
-  variance_ = static_cast<float>(sum / static_cast<double>(sums_.size()));
+  weigh(weights);
+}
+
+inline void SignalStatistics::use_units(std::span<const int> exponents,
+                                        std::span<const float> weights) {
+  for (std::size_t c = 0; c < factors_.size(); ++c) factors_[c] = std::ldexp(1.0f, -exponents[c]);
+  if (settled_) weigh(weights);
+}
+
+inline void SignalStatistics::weigh(std::span<const float> weights) {
+  constexpr double least = 1e-24;  // of a signal that is 0 at all corners
+  double sum = 0;
+  rounding_ = 0;
+  const double largest = double{*std::max_element(weights.begin(), weights.end())};
+  for (std::size_t c = 0; c < sums_.size(); ++c) {
+    const double square = double{factors_[c]} * double{factors_[c]};
+    const double variance = std::max(settled_variances_[c] * square, least);
+    variances_[c] = static_cast<float>(variance);
+    // Relative to the largest, so that with equal weights it is the plain mean to the bit.
+    if (largest > 0) sum += double{weights[c]} / largest * variance;
+    rounding_ += static_cast<float>(1e-12 * mean_squares_[c] * square) * weights[c];
+  }
+  const auto channels = static_cast<double>(sums_.size());
+  sum = sum / channels * double{static_cast<float>(largest * channels)};
+  // Where no channel counts, the number of samples does.
+  variance_ = largest > 0 ? static_cast<float>(std::min(sum, double{without_limit})) : 1.0f;
 }
 
 inline float SignalStatistics::most_variance(std::size_t channel) const {
-  constexpr float without_limit = 1e31f;  // no usable samples have a larger one
-  const float width = ranges_[channel].width();
+  const float width = ranges_[channel].width() * factors_[channel];
   // A range of nothing says nothing.
   return variance_ > 0 && width > 0 ? 0.25f * width * width : without_limit;
 }

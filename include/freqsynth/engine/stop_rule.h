@@ -48,9 +48,13 @@ enum class StopReason {
 struct SynthesisStats {
   std::uint64_t samples = 0;   ///< values delivered = sampler calls that succeeded
   std::uint64_t absorbed = 0;  ///< samples taken in by blocks; border samples count for each block
-  std::uint64_t bad_samples = 0;  ///< samples with a value that is not is_usable_sample()
-  std::uint64_t waves = 0;        ///< waves completed
-  std::uint64_t blocks = 0;       ///< blocks of the image
+  /// Samples with a value that is not is_usable_sample() in a channel that has a weight.
+  std::uint64_t bad_samples = 0;
+  /// Samples with such a value in channels of weight 0 only. They are no bad samples: for all other
+  /// channels they are as good as any.
+  std::uint64_t ignored_bad_samples = 0;
+  std::uint64_t waves = 0;   ///< waves completed
+  std::uint64_t blocks = 0;  ///< blocks of the image
 };
 
 /// Where a bad sample was.

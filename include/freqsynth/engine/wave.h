@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "freqsynth/basis/config.h"
@@ -69,6 +70,9 @@ class Wave {
   [[nodiscard]] const float* values(std::size_t slot) const {
     return values_.data() + slot * channels_;
   }
+
+  /// The values of all slots of a complete wave, `channels` for each.
+  [[nodiscard]] std::span<float> values() { return {values_.data(), size() * channels_}; }
 
   /// Ends the wave; its memory stays.
   void clear();

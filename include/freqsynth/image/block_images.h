@@ -4,9 +4,11 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
+#include <span>
 #include <vector>
 
 #include "freqsynth/basis/config.h"
@@ -18,18 +20,31 @@
 #include "freqsynth/refine/refiner.h"
 
 namespace freqsynth {
+namespace detail {
+
+/// Coefficients in units of 2 to the power of an exponent, in -126..126, in the host's unit.
+inline void to_host_unit(std::span<float> coefficients, int exponent) {
+  const float unit = std::ldexp(1.0f, exponent);
+  for (float& coefficient : coefficients) coefficient *= unit;
+}
+
+}  // namespace detail
 
 /// The fit itself (CoefficientMeaning::point_function).
 template <Refiner R>
 [[nodiscard]] FrequencyImage fit_image(const BlockGrid& grid, const BlockStore<R>& blocks) {
   const std::size_t channels = blocks.refiner().channels();
   FrequencyImage image(grid.width, grid.height, channels);
+  std::vector<Gap> gaps;
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     const std::size_t x = grid.column(b);
     const std::size_t y = grid.row(b);
     image.samples(x, y) = blocks.samples(b);
     for (std::size_t c = 0; c < channels; ++c) {
-      blocks.coefficients(b, c, image.coefficients(x, y, c));
+      const auto coefficients = image.coefficients(x, y, c);
+      const BlockFit fit = blocks.fit_without_gaps(b, c, gaps);
+      std::copy(fit.coefficients.begin(), fit.coefficients.end(), coefficients.begin());
+      detail::to_host_unit(coefficients, blocks.exponent(c));
     }
   }
   return image;
@@ -45,6 +60,7 @@ template <Refiner R>
   const std::size_t channels = blocks.refiner().channels();
   FrequencyImage image(grid.width, grid.height, channels, CoefficientMeaning::pixel_average);
   PixelFinisher finisher(list, settings);
+  std::vector<Gap> gaps;
   std::vector<std::uint32_t> order(blocks.size());
   std::iota(order.begin(), order.end(), 0u);
   std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -56,7 +72,8 @@ template <Refiner R>
     image.samples(x, y) = blocks.samples(block);
     finisher.advance(blocks.samples(block));
     for (std::size_t c = 0; c < channels; ++c) {
-      finisher.finish(blocks.fit(block, c), image.coefficients(x, y, c));
+      finisher.finish(blocks.fit_without_gaps(block, c, gaps), image.coefficients(x, y, c));
+      detail::to_host_unit(image.coefficients(x, y, c), blocks.exponent(c));
     }
   }
   return image;

@@ -72,6 +72,7 @@ class FREQSYNTH_API PixelFinisher {
   void finish(const BlockFit& fit, std::span<float, max_terms> out) const;
 
  private:
+  void finish_without_gaps(const BlockFit& fit, std::span<float, max_terms> out) const;
   void filter(const BlockFit& fit, std::span<float, max_terms> filtered) const;
   double measured_doubt(const BlockFit& fit, std::span<const float, max_terms> filtered,
                         const detail::AlignedBlock& means) const;

@@ -144,8 +144,37 @@ FREQSYNTH_INLINE void PixelFinisher::bound(const BlockFit& fit,
   }
 }
 
+/// As if the samples that are gaps had not been taken.
+FREQSYNTH_INLINE void PixelFinisher::finish_without_gaps(const BlockFit& fit,
+                                                         std::span<float, max_terms> out) const {
+  PixelFinisher others(*this);
+  std::array<float, max_terms> pixel_sums;
+  std::copy(fit.pixel_sums.begin(), fit.pixel_sums.end(), pixel_sums.begin());
+  for (const Gap& gap : fit.gaps) {
+    const detail::SampleRow& row = list_->row(gap.sample);
+    for (std::size_t p = 0; p < row.pixel_count; ++p) {
+      const std::size_t pixel = row.pixels[p];
+      pixel_sums[pixel] -= gap.value * row.pixel_weights[p];
+      // Sums of halves and quarters are exact.
+      others.weights_[pixel] -= row.pixel_weights[p];
+      float* sums = others.sums_.data() + pixel * max_terms;
+      for (std::size_t i = 0; i < max_terms; ++i) {
+        sums[detail::zigzag_to_row_major[i]] -= row.pixel_weights[p] * (row.fit[i] + row.rest[i]);
+      }
+    }
+  }
+  others.samples_ -= fit.gaps.size();
+  others.filter_ = butterworth_factors(settings_.butterworth, others.samples_);
+  for (std::size_t pixel = 0; pixel < max_terms; ++pixel) {
+    const float weight = others.weights_[pixel];
+    others.inverse_weights_[pixel] = weight > 0 ? 1 / weight : 0;
+  }
+  others.finish({fit.coefficients, pixel_sums, fit.residual}, out);
+}
+
 FREQSYNTH_INLINE void PixelFinisher::finish(const BlockFit& fit,
                                             std::span<float, max_terms> out) const {
+  if (!fit.gaps.empty()) return finish_without_gaps(fit, out);
   std::array<float, max_terms> filtered;
   filter(fit, filtered);
   for (std::size_t i = 0; i < max_terms; ++i) out[i] = filtered[i] * box_[i];

@@ -20,7 +20,7 @@ struct QuantizationTarget {
   /// looked at, whatever the first samples say.
   static constexpr std::size_t least_samples = 25;
 
-  /// Per channel the step of each coefficient F in zig-zag order, at least 1e-15; infinity for one
+  /// Per channel the step of each coefficient F in zig-zag order, at least 1e-37; infinity for one
   /// that is dropped.
   std::vector<std::array<float, max_terms>> steps;
   /// A block is done when its expected squared error, in squared steps and summed over all
@@ -51,6 +51,7 @@ struct QuantizationTarget {
 /// Expected squared error of a channel of a block, in squared steps, over those coefficients whose
 /// error may change the quantised value. A coefficient that is quantised to zero and stays there,
 /// within two standard deviations, does not count: the quantiser removes its error.
+/// \param steps         at least 1e-15: smaller ones have squares that no float holds
 /// \param coefficients  F, zig-zag, as they will be quantised (but for the level shift of F(0,0))
 /// \param variances     expected squared error of each per unit of `residual`
 /// \param residual      variance of the residuals of the fit

@@ -17,9 +17,8 @@ FREQSYNTH_INLINE void QuantizationTarget::validate(std::size_t channels) const {
   }
   for (const auto& channel : steps) {
     for (const float step : channel) {
-      // Smaller ones have squares that no float holds.
-      detail::require(!detail::is_nan(step) && step >= 1e-15f, "a quantization target's step", step,
-                      "at least 1e-15");
+      detail::require(!detail::is_nan(step) && step >= 1e-37f, "a quantization target's step", step,
+                      "at least 1e-37");
     }
   }
   if (most_samples == 0) detail::refuse("the quantization target's most_samples is 0");

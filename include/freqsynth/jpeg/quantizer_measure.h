@@ -6,9 +6,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
+#include <vector>
 
 #include "freqsynth/basis/config.h"
 #include "freqsynth/engine/block_measure.h"
@@ -29,7 +31,17 @@ class QuantizerMeasure {
         metric_(settings, most_samples),
         neighbours_(static_cast<float>(settings.neighbours)),
         noisy_(noisy),
-        book_(blocks) {}
+        book_(blocks),
+        steps_(target_.steps) {
+    for (std::size_t c = 0; c < steps_.size(); ++c) use_unit(c, 0);
+  }
+
+  /// See BlockMeasure.
+  template <Refiner R>
+  void use_units(const BlockView<R>& view, float factor) {
+    book_.rescale(factor);
+    for (std::size_t c = 0; c < steps_.size(); ++c) use_unit(c, view.blocks.exponent(c));
+  }
 
   /// See BlockMeasure.
   template <Refiner R>
@@ -62,6 +74,14 @@ class QuantizerMeasure {
     return view.blocks.samples(block) * max_terms / pixels;
   }
 
+  void use_unit(std::size_t channel, int exponent) {
+    for (std::size_t i = 0; i < max_terms; ++i) {
+      // Smaller ones have squares that no float holds, and are as fine as none.
+      const double step = std::ldexp(double{target_.steps[channel][i]}, -exponent);
+      steps_[channel][i] = static_cast<float>(std::clamp(step, 1e-15, 1e38));
+    }
+  }
+
   /// Expected squared error after quantisation, in squared steps.
   template <Refiner R>
   [[nodiscard]] float error_of(const BlockView<R>& view, std::uint32_t block) const {
@@ -75,8 +95,8 @@ class QuantizerMeasure {
       if (!noisy_) residual *= evenness(per_whole_block(view, block));
       residual += metric_.uncertainty(samples, view.signal.variance(c));
       view.blocks.coefficients(block, c, coefficients);
-      error += quantized_error(target_.steps[c], coefficients,
-                               view.blocks.refiner().variances(samples), residual);
+      error += quantized_error(steps_[c], coefficients, view.blocks.refiner().variances(samples),
+                               residual);
     }
     return error;
   }
@@ -86,6 +106,7 @@ class QuantizerMeasure {
   float neighbours_;
   bool noisy_;
   ResidualBook book_;
+  std::vector<std::array<float, max_terms>> steps_;  // in the units of the channels
 };
 
 }  // namespace freqsynth

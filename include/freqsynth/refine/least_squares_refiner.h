@@ -41,6 +41,8 @@ class FREQSYNTH_API LeastSquaresRefiner {
   [[nodiscard]] std::size_t channels() const { return channels_; }
   /// Weight of each channel.
   [[nodiscard]] std::span<const float> weights() const { return weights_; }
+  /// Other weights from now on, one per channel.
+  void weigh(std::span<const float> weights) { weights_.assign(weights.begin(), weights.end()); }
   /// Floats in the state of a block. States are aligned to 32 bytes.
   [[nodiscard]] std::size_t state_size() const {
     return 2 * channels_ * max_terms + (channels_ + 15) / 16 * 16;
@@ -48,11 +50,14 @@ class FREQSYNTH_API LeastSquaresRefiner {
 
   /// Puts a state to "no sample yet".
   void reset(float* state) const;
+  /// Multiplies all values of a channel that a state has absorbed by 2 to the power of `exponent`.
+  /// Exact as long as no value is near the ends of a float's range.
+  void rescale(float* state, std::size_t channel, int exponent) const;
 
   /// Absorbs the values of sample `index` of the sequence; every index must come, in order.
   ///
   /// A value that is not usable is replaced by the block's own prediction, so that the sequence
-  /// goes on and no information is added. Before a channel's first usable value there is no
+  /// goes on; fit() without gaps takes it back. Before a channel's first usable value there is no
   /// prediction; the earlier samples then count as equal to that first value.
   /// \return the mean squared change of the block's pixels (of its coefficients / 8), weighted over
   ///         the channels. The first usable value of a channel, with nothing to change, counts 0.
@@ -92,6 +97,16 @@ class FREQSYNTH_API LeastSquaresRefiner {
                                                              std::size_t channel) const {
     return std::span<const float, max_terms>(state + (channels_ + channel) * max_terms, max_terms);
   }
+
+  /// What takes the place of an unusable value of a channel in sample `index`: the prediction of
+  /// the fit, not a number before the channel's first usable value.
+  [[nodiscard]] float prediction(const float* state, std::size_t index, std::size_t channel) const;
+
+  /// fit() of all samples but those in `gaps`, with the weak prior that the energy of terms falls
+  /// as that of edges does, for the samples that are left may be uneven. Costs O(samples T^2). It
+  /// refers to the state and to `gaps`.
+  [[nodiscard]] BlockFit fit(const float* state, std::size_t samples, std::size_t channel,
+                             std::span<const Gap> gaps) const;
 
   /// All of this for a channel. It refers to the state.
   [[nodiscard]] BlockFit fit(const float* state, std::size_t samples, std::size_t channel) const;

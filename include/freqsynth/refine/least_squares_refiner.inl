@@ -3,14 +3,89 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "freqsynth/basis/check.h"
 #include "freqsynth/basis/dct.h"
+#include "freqsynth/basis/edge_spectrum.h"
 #include "freqsynth/refine/least_squares_refiner.h"
 
 namespace freqsynth {
+namespace detail {
+
+/// Normal equations of the samples of a block that are not gaps.
+class GapSolver {
+ public:
+  explicit GapSolver(std::size_t terms)
+      : terms_(terms), matrix_(terms * terms), side_(terms), change_(terms) {}
+
+  void add(const SampleRow& row) {
+    for (std::size_t i = 0; i < terms_; ++i) {
+      const double a = double{row.fit[i] + row.rest[i]};
+      for (std::size_t k = 0; k <= i; ++k) {
+        matrix_[i * terms_ + k] += a * double{row.fit[k] + row.rest[k]};
+      }
+    }
+  }
+  void take_off(const SampleRow& row, double off) {
+    for (std::size_t i = 0; i < terms_; ++i) side_[i] -= double{row.fit[i] + row.rest[i]} * off;
+  }
+
+  /// Finds the changes of the amplitudes.
+  /// \return by how much the sum of squared residuals grows
+  double solve(const float* amplitudes);
+  [[nodiscard]] double change(std::size_t term) const { return change_[term]; }
+
+ private:
+  [[nodiscard]] double entry(std::size_t i, std::size_t k) const {
+    return i >= k ? matrix_[i * terms_ + k] : matrix_[k * terms_ + i];
+  }
+
+  std::size_t terms_;
+  std::vector<double> matrix_;  // the lower triangle
+  std::vector<double> side_, change_;
+};
+
+inline double GapSolver::solve(const float* amplitudes) {
+  // What is left may be too uneven to tell all terms apart. So each has a prior: that the energy of
+  // the terms, and that of what comes after them, which is noise here, fall as those of edges do.
+  // It counts for a third, for of most blocks the samples know more.
+  constexpr double share = 0.3;
+  const EdgeSpectrum& expected = edge_spectrum();
+  const double noise = expected.tail[std::min(terms_, max_terms - 1)];
+  std::vector<double> factor(terms_ * terms_);  // Cholesky's
+  for (std::size_t i = 0; i < terms_; ++i) {
+    const Frequency f = frequency_of_term(i);
+    const double mean_square = (f.u > 0 ? 0.5 : 1) * (f.v > 0 ? 0.5 : 1);
+    const double prior = i > 0 ? share * mean_square * noise / expected.energy[i] : 0;
+    change_[i] = side_[i] - prior * double{amplitudes[i]};
+    for (std::size_t k = 0; k <= i; ++k) {
+      double sum = entry(i, k) + (i == k ? prior : 0);
+      for (std::size_t m = 0; m < k; ++m) sum -= factor[i * terms_ + m] * factor[k * terms_ + m];
+      factor[i * terms_ + k] = i == k ? std::sqrt(sum) : sum / factor[k * terms_ + k];
+    }
+  }
+  for (std::size_t i = 0; i < terms_; ++i) {
+    for (std::size_t k = 0; k < i; ++k) change_[i] -= factor[i * terms_ + k] * change_[k];
+    change_[i] /= factor[i * terms_ + i];
+  }
+  for (std::size_t i = terms_; i-- > 0;) {
+    for (std::size_t k = i + 1; k < terms_; ++k) change_[i] -= factor[k * terms_ + i] * change_[k];
+    change_[i] /= factor[i * terms_ + i];
+  }
+  double growth = 0;
+  for (std::size_t i = 0; i < terms_; ++i) {
+    double product = 0;
+    for (std::size_t k = 0; k < terms_; ++k) product += entry(i, k) * change_[k];
+    growth += change_[i] * (product - 2 * side_[i]);
+  }
+  return growth;
+}
+
+}  // namespace detail
 
 FREQSYNTH_INLINE LeastSquaresRefiner::LeastSquaresRefiner(SharedInverseList list,
                                                           std::size_t channels,
@@ -36,6 +111,18 @@ FREQSYNTH_INLINE void LeastSquaresRefiner::reset(float* state) const {
   for (std::size_t c = 0; c < channels_; ++c) {
     state[c * max_terms] = std::bit_cast<float>(0x7fc00000u);
   }
+}
+
+FREQSYNTH_INLINE void LeastSquaresRefiner::rescale(float* state, std::size_t channel,
+                                                   int exponent) const {
+  float* own = state + channel * max_terms;
+  float* sums = own + channels_ * max_terms;
+  for (std::size_t i = 0; i < max_terms; ++i) {
+    own[i] = std::ldexp(own[i], exponent);
+    sums[i] = std::ldexp(sums[i], exponent);
+  }
+  float& squares = state[2 * channels_ * max_terms + channel];
+  squares = std::ldexp(squares, 2 * exponent);
 }
 
 FREQSYNTH_INLINE float LeastSquaresRefiner::absorb_channelwise(float* state, std::size_t index,
@@ -78,6 +165,49 @@ FREQSYNTH_INLINE void LeastSquaresRefiner::coefficients(const float* state, std:
   for (std::size_t i = 0; i < max_terms; ++i) {
     out[i] = i < fit ? own[i] / static_cast<float>(amplitude_of_coefficient(i)) : 0;
   }
+}
+
+FREQSYNTH_INLINE float LeastSquaresRefiner::prediction(const float* state, std::size_t index,
+                                                       std::size_t channel) const {
+  const float* own = state + channel * max_terms;
+  const detail::SampleRow& row = list_->row(index);
+  float sum = own[0];  // the first term is 1; not a number is not
+  for (std::size_t i = 1; i < row.terms; ++i) sum += row.fit[i] * own[i];
+  return sum;
+}
+
+FREQSYNTH_INLINE BlockFit LeastSquaresRefiner::fit(const float* state, std::size_t samples,
+                                                   std::size_t channel,
+                                                   std::span<const Gap> gaps) const {
+  BlockFit fit = this->fit(state, samples, channel);
+  fit.gaps = gaps;
+  if (gaps.empty() || gaps.size() >= samples) return fit;
+  // From the amplitudes X of the fit with the gaps to X + d without them: J d = r, where J and the
+  // right-hand side r = -sum A e are those of the other samples, e what the gaps' values are off
+  // the fit.
+  const float* own = state + channel * max_terms;
+  const std::size_t all = terms(samples);
+  detail::GapSolver solver(all);
+  std::vector<bool> gap(samples);
+  for (const Gap& one : gaps) gap[one.sample] = true;
+  double squares = double{squared_residuals(state, channel)};
+  for (const Gap& one : gaps) {
+    double off = double{one.value};
+    const detail::SampleRow& row = list_->row(one.sample);
+    for (std::size_t i = 0; i < all; ++i) off -= double{row.fit[i] + row.rest[i]} * double{own[i]};
+    solver.take_off(row, off);
+    squares -= off * off;
+  }
+  for (std::size_t j = 0; j < samples; ++j) {
+    if (!gap[j]) solver.add(list_->row(j));
+  }
+  squares += solver.solve(own);
+  for (std::size_t i = 0; i < max_terms; ++i) {
+    const double amplitude = i < all ? double{own[i]} + solver.change(i) : 0;
+    fit.coefficients[i] = static_cast<float>(amplitude / amplitude_of_coefficient(i));
+  }
+  fit.residual = static_cast<float>(std::max(squares, 0.0)) / freedom(samples - gaps.size());
+  return fit;
 }
 
 FREQSYNTH_INLINE BlockFit LeastSquaresRefiner::fit(const float* state, std::size_t samples,

@@ -11,6 +11,7 @@
 #include <array>
 #include <concepts>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 #include "freqsynth/basis/config.h"
@@ -18,6 +19,16 @@
 namespace freqsynth {
 
 class InverseList;
+
+/// Largest magnitude of a value, in the unit of the states, whose squares a refiner has to bear.
+inline constexpr float most_state_value = 0x1p50f;
+
+/// A sample that had no usable value: its index in the sequence, and what was absorbed in its
+/// place.
+struct Gap {
+  std::uint32_t sample = 0;  ///< index in the sequence
+  float value = 0;           ///< a prediction, no information
+};
 
 /// What an estimator says of one channel of a block; what images are made of.
 struct BlockFit {
@@ -27,22 +38,29 @@ struct BlockFit {
   /// between pixels counts half, or a quarter, for each.
   std::span<const float, max_terms> pixel_sums;
   float residual = 0;  ///< variance of what the fit leaves over
+  /// Samples that are in the sums with a value that is none; the fit and the residual do without
+  /// them.
+  std::span<const Gap> gaps = {};
 };
 
 template <class R>
-concept Refiner = requires(const R& refiner, float* state, const float* known, const float* values,
-                           std::size_t n, std::size_t channel,
-                           std::span<float, max_terms> coefficients) {
+concept Refiner = requires(R& own, const R& refiner, float* state, const float* known,
+                           const float* values, std::size_t n, std::size_t channel,
+                           std::span<float, max_terms> coefficients, int exponent) {
   /// The sequence that it follows, and what is shared by all blocks.
   { refiner.list() } -> std::same_as<const InverseList&>;
   { refiner.channels() } -> std::same_as<std::size_t>;
   /// Weight of each channel where one number has to stand for all.
   { refiner.weights() } -> std::same_as<std::span<const float>>;
+  /// Other weights from now on.
+  { own.weigh(std::span<const float>{}) } -> std::same_as<void>;
 
   /// Floats that a block keeps.
   { refiner.state_size() } -> std::same_as<std::size_t>;
   /// Puts a state to "no sample yet".
   { refiner.reset(state) } -> std::same_as<void>;
+  /// Multiplies all values of a channel that a state has absorbed by 2 to the power of an exponent.
+  { refiner.rescale(state, channel, exponent) } -> std::same_as<void>;
   /// Takes in the values of sample n, one per channel; returns the mean squared change of the
   /// block's pixels, weighted over the channels.
   { refiner.absorb(state, n, values) } -> std::same_as<float>;
@@ -62,6 +80,18 @@ concept Refiner = requires(const R& refiner, float* state, const float* known, c
   /// The coefficients alone, and all that the block is after n samples.
   { refiner.coefficients(known, n, channel, coefficients) } -> std::same_as<void>;
   { refiner.fit(known, n, channel) } -> std::same_as<BlockFit>;
+};
+
+/// A refiner that puts a prediction in the place of a value that is not usable, and can tell later
+/// what the fit is without it.
+template <class R>
+concept FillsGaps = Refiner<R> && requires(const R& refiner, const float* known, std::size_t n,
+                                           std::size_t channel, std::span<const Gap> gaps) {
+  /// What absorb() of sample n will take for a value of the channel that is not usable; not a
+  /// number when it cannot yet: then the first value that is usable will stand for all before it.
+  { refiner.prediction(known, n, channel) } -> std::same_as<float>;
+  /// The fit without the samples in `gaps`.
+  { refiner.fit(known, n, channel, gaps) } -> std::same_as<BlockFit>;
 };
 
 }  // namespace freqsynth

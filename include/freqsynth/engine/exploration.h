@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+/// \file
+/// No block stays behind the others for good, however flat it looks: what is small and lies between
+/// the first samples of a block would never be found.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "freqsynth/basis/config.h"
+
+namespace freqsynth {
+
+/// The blocks that have fewer samples than every block should have by now: m^exponent, when the
+/// blocks have m on average.
+class Exploration {
+ public:
+  /// \param exponent  see PrioritySettings::exploration
+  /// \param blocks    how many there are
+  Exploration(double exponent, std::size_t blocks) : exponent_(exponent), blocks_(blocks) {
+    if (exponent_ > 0) lagging_.reserve(blocks);
+  }
+
+  /// Finds the blocks that lag when every block should have more samples than before; so all blocks
+  /// are looked at less than once in a sample of each. Does not allocate.
+  /// \param mean   samples of a block, on average
+  /// \param lags   lags(block, n): whether a block has fewer than its share of n samples
+  template <class Lags>
+  void update(double mean, Lags&& lags);
+
+  /// Calls take(block) for blocks that lag until it returns false or there is none.
+  template <class Lags, class Take>
+  void visit(Lags&& lags, Take&& take);
+
+  /// Samples that every block should have by now.
+  [[nodiscard]] double least() const { return least_; }
+
+ private:
+  double exponent_;
+  std::size_t blocks_;
+  double least_ = 0;
+  std::vector<std::uint32_t> lagging_;
+  std::size_t next_ = 0;
+};
+
+// ------------------------------------------------------------------------------------ definitions
+
+template <class Lags>
+void Exploration::update(double mean, Lags&& lags) {
+  if (exponent_ == 0) return;
+  const double least = std::floor(std::pow(mean, exponent_));
+  if (least <= least_) return;
+  least_ = least;
+  next_ = 0;
+  lagging_.clear();
+  for (std::uint32_t block = 0; block < blocks_; ++block) {
+    if (lags(block, least_)) lagging_.push_back(block);
+  }
+}
+
+template <class Lags, class Take>
+void Exploration::visit(Lags&& lags, Take&& take) {
+  for (; next_ < lagging_.size(); ++next_) {
+    const std::uint32_t block = lagging_[next_];
+    if (lags(block, least_) && !take(block)) return;
+  }
+}
+
+}  // namespace freqsynth
