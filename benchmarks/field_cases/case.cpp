@@ -32,7 +32,7 @@ Case members_case(std::string key, std::string name, Family family, std::uint64_
           [family = std::move(family), count](double rate) {
             double sum = 0, worst = 0, uniform_sum = 0, uniform_worst = 0;
             for (std::uint64_t number = 1; number <= count; ++number) {
-              const Figure f = rmse_figure(family(table_seed, number), rate, {}, 1, 4);
+              const Figure f = rmse_figure(family(table_seed, number), rate, {}, 2, jittered_seeds);
               const double now = std::max(f.now, least_error);
               const double ratio = now / std::max(f.jittered, least_error);
               const double uniform = now / std::max(f.uniform, least_error);
@@ -47,7 +47,8 @@ Case members_case(std::string key, std::string name, Family family, std::uint64_
                 {"RMSE / jittered, worst", none, worst},
                 {"RMSE / uniform, geometric mean", none, std::exp(uniform_sum / n)},
                 {"RMSE / uniform, worst", none, uniform_worst}};
-          }};
+          },
+          true};
 }
 
 std::vector<Kind> all_kinds() {

@@ -31,6 +31,7 @@ struct Case {
   std::string name;  ///< in plain words
   std::vector<double> rates;
   std::function<std::vector<Figure>(double rate)> measure;
+  bool family = false;  ///< its figures are those of members_case(), in a table of their own
 };
 
 /// Inputs that fail for one reason.
@@ -53,8 +54,8 @@ struct Kind {
 /// A family of random members: `make(seed, number)`.
 using Family = std::function<Field(std::uint64_t seed, std::uint64_t number)>;
 
-/// The RMSE of members 1 .. count relative to that of jittered samples, and to equal samples:
-/// geometric means and the worst. Errors below least_error count as that.
+/// The RMSE of members 1 .. count relative to that of jittered samples, and to equal samples: of
+/// each the geometric mean, then the worst. Errors below least_error count as that.
 [[nodiscard]] Case members_case(std::string key, std::string name, Family family,
                                 std::uint64_t count, std::vector<double> rates);
 

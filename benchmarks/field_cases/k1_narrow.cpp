@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "case.h"
+#include "members.h"
 
 namespace field_cases {
 namespace {
@@ -27,22 +28,61 @@ Case columns_case(std::size_t width) {
           }};
 }
 
+// What an image asks for.
+struct Asked {
+  double calls = 0;
+  double again = 0;    // calls at points that were asked before
+  double names = 0;    // ids
+  double outside = 0;  // points outside the image
+};
+
+Asked ask(std::size_t width, std::size_t height, double rate) {
+  std::set<std::pair<double, double>> points;
+  std::set<std::uint64_t> ids;
+  Asked asked;
+  const auto w = static_cast<double>(width);
+  const auto h = static_cast<double>(height);
+  const Sampler sampler = [&](double x, double y, std::uint64_t id, std::span<float> values) {
+    ++asked.calls;
+    asked.again += !points.insert({x, y}).second;
+    asked.names += ids.insert(id).second;
+    asked.outside += !(x >= 0 && x <= w && y >= 0 && y <= h);
+    values[0] = static_cast<float>(std::sin(0.9 * y + 2.2 * x));
+  };
+  (void)synthesize(sampler, settings_of(width, height), rate, 1);
+  return asked;
+}
+
 Case twice_case(std::size_t width, std::size_t height, std::vector<double> rates) {
   const std::string size = std::to_string(width) + " x " + std::to_string(height);
-  return {
-      "V2." + std::to_string(width) + "x" + std::to_string(height), size + ": points asked again",
-      std::move(rates), [width, height](double rate) {
-        std::set<std::pair<double, double>> points;
-        double calls = 0;
-        const Sampler sampler = [&](double x, double y, std::uint64_t, std::span<float> values) {
-          points.insert({x, y});
-          ++calls;
-          values[0] = static_cast<float>(std::sin(0.9 * y + 2.2 * x));
-        };
-        const Picture picture = synthesize(sampler, settings_of(width, height), rate, 1);
-        const double distinct = static_cast<double>(points.size());
-        return std::vector<Figure>{{"percent of the samples", 0, 100 * (1 - distinct / calls), 0}};
-      }};
+  return {"V2." + std::to_string(width) + "x" + std::to_string(height), size, std::move(rates),
+          [width, height](double rate) {
+            const Asked asked = ask(width, height, rate);
+            return std::vector<Figure>{
+                {"points asked again, percent", 0, 100 * asked.again / asked.calls, 0},
+                {"ids more than points", 0, asked.names - (asked.calls - asked.again), 0},
+                {"points outside", 0, asked.outside, 0}};
+          }};
+}
+
+// All sizes from 1 x 1 to 17 x 17.
+Case all_sizes_case() {
+  return {"V2.sizes", "1 x 1 to 17 x 17, all together", {1, 4, 16}, [](double rate) {
+            Asked all;
+            for (std::size_t width = 1; width <= 17; ++width) {
+              for (std::size_t height = 1; height <= 17; ++height) {
+                const Asked asked = ask(width, height, rate);
+                all.calls += asked.calls;
+                all.again += asked.again;
+                all.names += asked.names;
+                all.outside += asked.outside;
+              }
+            }
+            return std::vector<Figure>{
+                {"points asked again, percent", 0, 100 * all.again / all.calls, 0},
+                {"ids more than points", 0, all.names - (all.calls - all.again), 0},
+                {"points outside", 0, all.outside, 0}};
+          }};
 }
 
 }  // namespace
@@ -84,12 +124,16 @@ Kind narrow_images() {
   kind.cases.push_back(twice_case(60, 60, {1, 4}));
   kind.cases.push_back(twice_case(65, 64, {1, 4}));
   kind.cases.push_back(twice_case(64, 64, {1, 4}));
-  for (const std::size_t width : {1, 2, 3, 4, 8, 9, 10, 16}) {
+  kind.cases.push_back(all_sizes_case());
+  kind.cases.push_back(members_case("K1.narrow", "32 random functions, 1 to 17 pixels wide or high",
+                                    random_narrow, 32, {1, 4, 16}));
+  for (const std::size_t width : {1u, 2u, 3u, 4u, 8u, 9u, 10u, 16u}) {
     kind.cases.push_back(rmse_case("V3.strip" + std::to_string(width),
                                    std::to_string(width) + " x 400: slanted bars", bars(width, 400),
                                    {4}));
   }
-  for (const std::size_t width : {9, 121, 124, 127, 128}) kind.cases.push_back(columns_case(width));
+  for (const std::size_t width : {9u, 121u, 124u, 127u, 128u})
+    kind.cases.push_back(columns_case(width));
   return kind;
 }
 

@@ -96,7 +96,7 @@ Kind axis_edges() {
     cases.push_back(rmse_case("V5.rectangle" + s, name, field, rates));
     cases.push_back({"V5.row" + s, name, {1, 4, 16}, [field](double rate) {
                        std::vector<Figure> figures;
-                       for (const std::size_t row : {19, 20, 21}) {
+                       for (const std::size_t row : {19u, 20u, 21u}) {
                          const Measure measure = [row](const Picture& p) {
                            double sum = 0;
                            for (std::size_t i = 0; i < p.width; ++i) sum += p.at(i, row);
@@ -147,11 +147,11 @@ Kind axis_edges() {
     cases.push_back(quality_case("V7.disc" + q, "for comparison: a disc, until JPEG quality " + q,
                                  disc, quality, {no_limit}));
   }
-  cases.push_back(members_case("K2.rectangles", "12 pictures of random rectangles",
-                               random_rectangles, 12, rates));
-  cases.push_back(members_case("K2.lines", "12 pictures of random lines", random_lines, 12, rates));
-  cases.push_back(members_case("K2.stems", "12 random stems", random_stems, 12, rates));
-  cases.push_back(members_case("K2.checkers", "12 random checkers", random_checker, 12, rates));
+  cases.push_back(members_case("K2.rectangles", "32 pictures of random rectangles",
+                               random_rectangles, 32, rates));
+  cases.push_back(members_case("K2.lines", "32 pictures of random lines", random_lines, 32, rates));
+  cases.push_back(members_case("K2.stems", "32 random stems", random_stems, 32, rates));
+  cases.push_back(members_case("K2.checkers", "32 random checkers", random_checker, 32, rates));
   return kind;
 }
 

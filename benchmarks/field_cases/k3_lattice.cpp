@@ -26,7 +26,7 @@ Kind lattice_patterns() {
                           }});
   }
   kind.cases.push_back(
-      members_case("K3.fences", "24 random fences", random_fence, 24, {0.25, 1, 4, 16}));
+      members_case("K3.fences", "48 random fences", random_fence, 48, {0.25, 1, 4, 16}));
   return kind;
 }
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "case.h"
+#include "members.h"
 #include "named_fields.h"
 
 namespace field_cases {
@@ -28,7 +30,9 @@ Case unweighted_case(double scale, const std::string& name) {
         settings.channels = 2;
         settings.channel_weights = {1, 0};
         const Measure measure = [&](const Picture& p) { return squared_error(p, right); };
-        Figure figure{"RMSE of channel 0", 0};
+        Figure figure{"RMSE of channel 0"};
+        figure.right =
+            std::sqrt(over_seeds(sampler_of(field), settings_of(256, 256), rate, measure));
         figure.now = std::sqrt(over_seeds(sampler, settings, rate, measure));
         figure.uniform = std::sqrt(over_seeds(sampler, uniform_settings(settings), rate, measure));
         figure.jittered = std::sqrt(over_jittered(sampler, 256, 256, 2, rate, measure));
@@ -37,29 +41,50 @@ Case unweighted_case(double scale, const std::string& name) {
 }
 
 // The same function in other units: RMSE in that unit.
+Figure unit_figure(const Field& field, double unit, double rate) {
+  const std::vector<double> right = right_pixels(field);
+  const auto error_in = [&](double of) {
+    return [&right, of](const Picture& p) {
+      double sum = 0;
+      for (std::size_t k = 0; k < right.size(); ++k) {
+        const double error = static_cast<double>(p.pixels[k]) / of - right[k];
+        sum += error * error;
+      }
+      return sum / static_cast<double>(right.size());
+    };
+  };
+  const Sampler plain = sampler_of(field);
+  const Sampler sampler = [&](double x, double y, std::uint64_t, std::span<float> values) {
+    values[0] = static_cast<float>(unit * field.value(x, y));
+  };
+  Figure figure{"RMSE in that unit"};
+  const auto settings = settings_of(field.width, field.height);
+  figure.right = std::sqrt(over_seeds(plain, settings, rate, error_in(1)));
+  figure.now = std::sqrt(over_seeds(sampler, settings, rate, error_in(unit)));
+  figure.uniform = std::sqrt(over_seeds(sampler, uniform_settings(settings), rate, error_in(unit)));
+  figure.jittered =
+      std::sqrt(over_jittered(plain, field.width, field.height, 1, rate, error_in(1)));
+  return figure;
+}
+
 Case unit_case(const std::string& key, const std::string& name, const Field& field, double unit) {
-  return {
-      key, name, {1}, [field, unit](double rate) {
-        const std::vector<double> right = right_pixels(field);
-        const Sampler sampler = [&](double x, double y, std::uint64_t, std::span<float> values) {
-          values[0] = static_cast<float>(unit * field.value(x, y));
-        };
-        const Measure measure = [&](const Picture& p) {
-          double sum = 0;
-          for (std::size_t k = 0; k < right.size(); ++k) {
-            const double error = double(p.pixels[k]) / unit - right[k];
-            sum += error * error;
-          }
-          return sum / static_cast<double>(right.size());
-        };
-        Figure figure{"RMSE in that unit", 0};
-        const auto settings = settings_of(field.width, field.height);
-        figure.now = std::sqrt(over_seeds(sampler, settings, rate, measure));
-        figure.uniform = std::sqrt(over_seeds(sampler, uniform_settings(settings), rate, measure));
-        figure.jittered =
-            std::sqrt(over_jittered(sampler, field.width, field.height, 1, rate, measure));
-        return std::vector{figure};
-      }};
+  return {key, name, {1}, [field, unit](double rate) {
+            return std::vector{unit_figure(field, unit, rate)};
+          }};
+}
+
+Case unit_members_case() {
+  return {"K5.functions", "32 random functions in units of 1e-30 .. 1e30", {1}, [](double rate) {
+            double least = 1, most = 1;
+            for (std::uint64_t number = 1; number <= 32; ++number) {
+              const double unit = std::pow(10.0, Draw(~table_seed, number).real(-30, 30));
+              const Figure f = unit_figure(random_function(table_seed, number), unit, rate);
+              least = std::min(least, f.now / f.right);
+              most = std::max(most, f.now / f.right);
+            }
+            return std::vector<Figure>{{"RMSE / that in units of 1, least", 1, least},
+                                       {"RMSE / that in units of 1, greatest", 1, most}};
+          }};
 }
 
 // exp(-((x - x0)^2 + (y - y0)^2) / s), averaged with the error function.
@@ -86,8 +111,8 @@ Kind scales() {
       "K5",
       "Units and weights",
       "The same function in other units must give the same picture, and a channel with weight "
-      "0 must not change the others, whatever its values. (The jittered column is that of the "
-      "function; it does not depend on units.)",
+      "0 must not change the others, whatever its values. Right is the error in units of 1, "
+      "or without the other channel.",
       {}};
   for (const auto& [scale, name] :
        {std::pair{0.0, "0"}, {20.0, "20"}, {2e3, "2e3"}, {2e6, "2e6"}, {2e9, "2e9"}}) {
@@ -117,6 +142,7 @@ Kind scales() {
                                    std::string("ramp and busy corner, unit ") + name,
                                    ramp_and_busy_corner(), unit));
   }
+  kind.cases.push_back(unit_members_case());
   return kind;
 }
 

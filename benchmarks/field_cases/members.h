@@ -6,12 +6,14 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "field.h"
@@ -200,6 +202,80 @@ inline Field random_function(std::uint64_t seed, std::uint64_t number) {
       field = plus(std::move(field), weight, waves);
     }
   }
+  return field;
+}
+
+/// K6: the left half of a field `factor` times as bright.
+inline Field darken_left_half(Field field, double factor) {
+  const auto half = static_cast<double>(field.width / 2);
+  field.value = [f = std::move(field.value), half, factor](double x, double y) {
+    return (x < half ? factor : 1) * f(x, y);
+  };
+  field.average = [f = std::move(field.average), half, factor](double i, double j) {
+    return (i < half ? factor : 1) * f(i, j);
+  };
+  return field;
+}
+
+/// K6: a random function of at most 1, one half 5 to 100 times as dark.
+inline Field random_dark_half(std::uint64_t seed, std::uint64_t number) {
+  Draw draw(~seed, number);
+  const double factor = std::exp(draw.real(std::log(0.01), std::log(0.2)));
+  Field field = random_function(seed, number);
+  double least = field.average(0, 0);
+  double most = least;
+  for (std::size_t j = 0; j < field.height; ++j) {
+    for (std::size_t i = 0; i < field.width; ++i) {
+      const double v = field.value(static_cast<double>(i) + 0.5, static_cast<double>(j) + 0.5);
+      least = std::min(least, v);
+      most = std::max(most, v);
+    }
+  }
+  // Smooth gratings are a little beyond what centres show: some room on both sides.
+  const double scale = 0.9 / (most - least);
+  const double shift = 0.05 - scale * least;
+  field.value = [f = std::move(field.value), scale, shift](double x, double y) {
+    return shift + scale * f(x, y);
+  };
+  field.average = [f = std::move(field.average), scale, shift](double i, double j) {
+    return shift + scale * f(i, j);
+  };
+  return darken_left_half(std::move(field), factor);
+}
+
+/// K10: whether the sample at (x, y) is bad, for that share of all places.
+inline bool is_bad_place(double x, double y, double share) {
+  std::uint64_t hash = std::bit_cast<std::uint64_t>(x) * 0x9e3779b97f4a7c15u;
+  hash = (hash ^ (hash >> 29) ^ std::bit_cast<std::uint64_t>(y)) * 0xbf58476d1ce4e5b9u;
+  hash = (hash ^ (hash >> 32)) * 0x94d049bb133111ebu;
+  return static_cast<double>((hash ^ (hash >> 29)) >> 11) * 0x1p-53 < share;
+}
+
+/// A disc, its radiance and the level around it.
+struct Lamp {
+  Disc disc;
+  double radiance = 1;
+  double level = 0.1;
+
+  /// 64 x 64 pixels.
+  [[nodiscard]] Field field() const {
+    return plus(product_field("lamp", 64, 64, level, {}), radiance - level, disc);
+  }
+};
+
+/// K11: a disc of radius 1 to 20, of a radiance in 10 .. 1e5 on 0.1.
+inline Lamp random_lamp(std::uint64_t seed, std::uint64_t number) {
+  Draw draw(seed, number);
+  return {{draw.real(16, 48), draw.real(16, 48), draw.real(1, 20)},
+          std::exp(draw.real(std::log(10.0), std::log(1e5)))};
+}
+
+/// K1: a random function in 1 to 17 columns or rows.
+inline Field random_narrow(std::uint64_t seed, std::uint64_t number) {
+  Field field = random_function(seed, number);
+  Draw draw(~seed, number);
+  (draw.coin() ? field.width : field.height) = static_cast<std::size_t>(draw.whole(1, 17));
+  field.name = member_name("narrow", number);
   return field;
 }
 

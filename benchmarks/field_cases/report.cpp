@@ -40,7 +40,112 @@ double ratio(double error, double other) {
   return error / other;
 }
 
-bool is_error(const Figure& figure) { return figure.what.rfind("RMSE", 0) == 0; }
+// Whether a figure is an error that has its yardsticks.
+bool is_error(const Figure& figure) {
+  return figure.what.rfind("RMSE", 0) == 0 && !std::isnan(figure.jittered);
+}
+
+double earlier(const Values& before, const Result& result, const Figure& figure) {
+  const auto found = before.find(name_of(*result.field_case, result.rate, figure.what));
+  return found == before.end() ? none : found->second;
+}
+
+// How many errors there are of a kind, and how many are too great.
+struct Count {
+  int all = 0;
+  int before = 0;   // were 10 percent more than jittered samples'
+  int now = 0;      // are
+  int uniform = 0;  // are 3 percent more than with equal samples
+};
+
+// Text in lines of at most 100 characters.
+std::string wrapped(const std::string& text) {
+  std::string lines;
+  std::size_t begin = 0;
+  while (text.size() - begin > 100) {
+    const std::size_t space = text.rfind(' ', begin + 100);
+    lines += text.substr(begin, space - begin) + '\n';
+    begin = space + 1;
+  }
+  return lines + text.substr(begin) + '\n';
+}
+
+void write_summary(const std::vector<Kind>& kinds, const std::vector<Result>& results,
+                   const Values& before, std::ostream& out) {
+  out << "| kind | errors measured | over 1.1 times jittered, before | now | over 1.03 times "
+         "uniform |\n|---|---|---|---|---|\n";
+  for (const Kind& kind : kinds) {
+    Count count;
+    bool known = false;
+    for (const Result& result : results) {
+      if (result.kind != &kind || result.field_case->family) continue;
+      for (const Figure& figure : result.figures) {
+        if (!is_error(figure)) continue;
+        const double was = earlier(before, result, figure);
+        known = known || !std::isnan(was);
+        ++count.all;
+        count.before += ratio(was, figure.jittered) > 1.1;
+        count.now += ratio(figure.now, figure.jittered) > 1.1;
+        count.uniform += ratio(figure.now, figure.uniform) > 1.03;
+      }
+    }
+    if (count.all == 0) continue;
+    out << "| " << kind.letter << ": " << kind.title << " | " << count.all << " | "
+        << (known ? std::to_string(count.before) : "") << " | " << count.now << " | "
+        << count.uniform << " |\n";
+  }
+}
+
+void write_cases(const Kind& kind, const std::vector<Result>& results, const Values& before,
+                 std::ostream& out) {
+  bool begun = false;
+  const Case* last = nullptr;
+  for (const Result& result : results) {
+    if (result.kind != &kind || result.field_case->family) continue;
+    if (!begun) {
+      out << "\n| case | at | measured | right | before | now | jittered | now / jittered | now / "
+             "uniform |\n|---|---|---|---|---|---|---|---|---|\n";
+      begun = true;
+    }
+    const Case& field_case = *result.field_case;
+    for (const Figure& figure : result.figures) {
+      // A case is named once.
+      std::string name;
+      if (&field_case != last) {
+        name = field_case.key.substr(0, field_case.key.find('.')) + ' ' + field_case.name;
+      }
+      last = &field_case;
+      out << "| " << name << " | " << rate_name(result.rate) << " | " << figure.what << " | "
+          << number(figure.right) << " | " << number(earlier(before, result, figure)) << " | "
+          << number(figure.now) << " | " << number(figure.jittered) << " | "
+          << (is_error(figure) ? number(ratio(figure.now, figure.jittered), "%.2f") : "") << " | "
+          << (is_error(figure) ? number(ratio(figure.now, figure.uniform), "%.2f") : "") << " |\n";
+    }
+  }
+}
+
+void write_families(const Kind& kind, const std::vector<Result>& results, const Values& before,
+                    std::ostream& out) {
+  bool begun = false;
+  const Case* last = nullptr;
+  for (const Result& result : results) {
+    if (result.kind != &kind || !result.field_case->family) continue;
+    if (!begun) {
+      out << "\n| random members | at | RMSE / jittered, before | now | the worst, before | now | "
+             "RMSE / uniform, now | the worst |\n|---|---|---|---|---|---|---|---|\n";
+      begun = true;
+    }
+    const Case& family = *result.field_case;
+    out << "| " << (&family != last ? family.name : "") << " | " << rate_name(result.rate);
+    last = &family;
+    for (std::size_t k = 0; k < result.figures.size(); ++k) {
+      const Figure& figure = result.figures[k];
+      if (k < 2) out << " | " << number(earlier(before, result, figure), "%.2f");
+      out << " | " << number(figure.now, "%.2f");
+    }
+    out << " |\n";
+  }
+}
 
 }  // namespace
 
@@ -81,7 +186,7 @@ void write_values(const std::vector<Result>& results, std::ostream& out) {
   for (const Result& result : results) {
     for (const Figure& figure : result.figures) {
       out << name_of(*result.field_case, result.rate, figure.what) << '\t'
-          << number(figure.now, "%.6g") << '\n';
+          << (std::isnan(figure.now) ? "nan" : number(figure.now, "%.6g")) << '\n';
     }
   }
 }
@@ -105,24 +210,11 @@ Values read_values(std::istream& in) {
 
 void write_tables(const std::vector<Kind>& kinds, const std::vector<Result>& results,
                   const Values& before, std::ostream& out) {
+  write_summary(kinds, results, before, out);
   for (const Kind& kind : kinds) {
-    out << "\n## " << kind.letter << ": " << kind.title << "\n\n" << kind.text << "\n\n";
-    out << "| case | at | measured | right | before | now | jittered | now / jittered | "
-           "now / uniform |\n|---|---|---|---|---|---|---|---|---|\n";
-    for (const Result& result : results) {
-      if (result.kind != &kind) continue;
-      const Case& field_case = *result.field_case;
-      for (const Figure& figure : result.figures) {
-        const auto found = before.find(name_of(field_case, result.rate, figure.what));
-        const bool compare = is_error(figure) && !std::isnan(figure.jittered);
-        out << "| " << field_case.key.substr(0, field_case.key.find('.')) << ' ' << field_case.name
-            << " | " << rate_name(result.rate) << " | " << figure.what << " | "
-            << number(figure.right) << " | " << (found == before.end() ? "" : number(found->second))
-            << " | " << number(figure.now) << " | " << number(figure.jittered) << " | "
-            << (compare ? number(ratio(figure.now, figure.jittered), "%.2f") : "") << " | "
-            << (compare ? number(ratio(figure.now, figure.uniform), "%.2f") : "") << " |\n";
-      }
-    }
+    out << "\n## " << kind.letter << ": " << kind.title << "\n\n" << wrapped(kind.text);
+    write_cases(kind, results, before, out);
+    write_families(kind, results, before, out);
   }
 }
 
