@@ -20,7 +20,8 @@
 
 namespace field_cases {
 
-/// Random numbers; the distributions of the standard library differ between machines.
+/// Random numbers; the distributions of the standard library differ between machines. Draw no two
+/// in operands or arguments of one expression: compilers differ in their order.
 class Draw {
  public:
   /// The numbers of one member of a family.
@@ -107,8 +108,9 @@ inline Field random_stems(std::uint64_t seed, std::uint64_t number) {
 inline Field random_checker(std::uint64_t seed, std::uint64_t number) {
   Draw draw(seed, number);
   const double cell = draw.coin() ? draw.whole(3, 16) : draw.real(3, 16);
-  return checker_field(member_name("checker", number), member_side, member_side, cell,
-                       draw.position(0, 15), draw.position(0, 15));
+  const double dx = draw.position(0, 15);
+  const double dy = draw.position(0, 15);
+  return checker_field(member_name("checker", number), member_side, member_side, cell, dx, dy);
 }
 
 /// K3: a fence of k / 16 pixels, k in 1 .. 32, of a duty cycle in 0.1 .. 0.9, level or upright or
@@ -173,7 +175,8 @@ inline Field random_function(std::uint64_t seed, std::uint64_t number) {
   // Directions keep 3 degrees from the axes, so that the closed forms keep their digits.
   const auto direction = [&] {
     const double quarter = std::numbers::pi / 2;
-    return draw.whole(0, 3) * quarter + draw.real(0.0524, quarter - 0.0524);
+    const double within = draw.real(0.0524, quarter - 0.0524);
+    return draw.whole(0, 3) * quarter + within;
   };
   for (int n = draw.whole(2, 6); n > 0; --n) {
     const double weight = draw.real(0.1, 1);
