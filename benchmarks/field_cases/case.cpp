@@ -51,9 +51,4 @@ Case members_case(std::string key, std::string name, Family family, std::uint64_
           true};
 }
 
-std::vector<Kind> all_kinds() {
-  return {narrow_images(),  axis_edges(), lattice_patterns(), small_features(), scales(),
-          display_errors(), rare_hits(),  bad_samples(),      halos(),          random_functions()};
-}
-
 }  // namespace field_cases
