@@ -49,9 +49,7 @@ freqsynth::SynthesisSettings settings_of(std::size_t width, std::size_t height) 
 }
 
 freqsynth::SynthesisSettings uniform_settings(freqsynth::SynthesisSettings settings) {
-  // What all blocks' residuals say together decides, so that all are as urgent.
-  settings.priority.neighbours = 0;
-  settings.priority.image = 1e6;
+  settings.priority.exploration = 1;
   return settings;
 }
 

@@ -34,7 +34,11 @@ baselines::Rendering synthesize(const baselines::Radiance& radiance, const basel
   settings.height = job.height;
   settings.list.seed = job.seed;
   settings.noisy = job.noisy;
-  if (estimate == Estimate::paper) settings.priority.measure = freqsynth::PriorityMeasure::change;
+  if (estimate == Estimate::paper) {
+    settings.priority.measure = freqsynth::PriorityMeasure::change;
+    settings.priority.exploration = 0;
+    settings.list.positions = freqsynth::SamplePositions::lattice;
+  }
   freqsynth::Synthesizer engine(settings);
 
   baselines::Rendering result{job.width, job.height, {}, {}};

@@ -156,7 +156,7 @@ void expect_derived_vectors(const InverseList& list, std::size_t count, Real rel
           << "index " << index;
       if (bordered) {
         ASSERT_NEAR(list.border(index)[i], static_cast<double>(border),
-                    static_cast<double>(bound * (b_norm + 1)))
+                    static_cast<double>(2 * bound * (b_norm + 1)))
             << "index " << index;
       }
     }

@@ -85,8 +85,8 @@ TEST(Tiling, AConstantIsExact) {
     for (const FrequencyImage& image : {engine.image(), engine.finished_image()}) {
       for (const double scale : {1.0, 0.3, 2.5}) {
         for (const float pixel : reconstruct(image, {}, scale)) {
-          // Measured: 3 roundings.
-          ASSERT_NEAR(pixel, 0.75, 3.5 * oracle::float_rounding) << width << " x " << height;
+          // Measured: 4 roundings; 2 on the plain lattice, whose gains are dyadic.
+          ASSERT_NEAR(pixel, 0.75, 4.5 * oracle::float_rounding) << width << " x " << height;
         }
       }
     }

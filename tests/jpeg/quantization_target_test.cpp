@@ -170,6 +170,7 @@ TEST(QuantizationTarget, NoiseIsSampledUntilTheQuantizerHardlyNotices) {
     SynthesisSettings settings{.width = 64, .height = 64, .channels = 1};
     settings.quantization = quantization_target(quantization, 1);
     settings.noisy = noisy;
+    settings.list.positions = SamplePositions::lattice;
     Synthesizer engine(settings);
     EXPECT_EQ(engine.run(noise, {}).reason, StopReason::threshold);
     // The fit as it is: finishing would remove more of the noise.

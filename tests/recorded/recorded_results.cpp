@@ -209,20 +209,20 @@ struct Configuration {
 };
 
 constexpr Configuration configurations[] = {
-    {"color", color, 0xf2e9eb99e9bfb23fu},
-    {"gray", gray, 0x140e8174c6d14e01u},
-    {"change", change, 0x927fdd910ffcda71u},
-    {"strict", strict, 0x9edb4887b8cbe318u},
-    {"weighted", weighted, 0xf8f9c1c88aff82a2u},
-    {"noisy", noisy, 0x23c76b047840e98cu},
-    {"until_quantized", until_quantized, 0x03caac51df978ff2u},
-    {"threshold", threshold, 0x6f3e3abf65a3a5bcu},
-    {"capped", capped, 0xc8d1033893062018u},
-    {"other_list", other_list, 0x1ddf55a33c679171u},
-    {"bad_values", bad_values, 0x3e1de254040c9240u},
-    {"high_range", high_range, 0x3c6872b524364890u},
-    {"many_channels", many_channels, 0x3620c732ae9e4e90u},
-    {"outputs", outputs, 0x1bf897bd78a9bb9bu},
+    {"color", color, 0x30c50fbbace194b1u},
+    {"gray", gray, 0x6d0487493b90bb46u},
+    {"change", change, 0xb27ca9d80ca71792u},
+    {"strict", strict, 0x791759dfdc2ea1e4u},
+    {"weighted", weighted, 0x91b536ac2a8dbef6u},
+    {"noisy", noisy, 0x7ebda78072d2df13u},
+    {"until_quantized", until_quantized, 0x7664f8772362a0adu},
+    {"threshold", threshold, 0xf646fe670b98ef55u},
+    {"capped", capped, 0xc2bb4364163a5fb1u},
+    {"other_list", other_list, 0x89e3421769f643deu},
+    {"bad_values", bad_values, 0xdfa046ea6b260e15u},
+    {"high_range", high_range, 0xbbce56d40d00f380u},
+    {"many_channels", many_channels, 0x53183c883d661d9cu},
+    {"outputs", outputs, 0x54d9458992fddeedu},
 };
 
 }  // namespace

@@ -13,8 +13,8 @@
 
 namespace freqsynth {
 
-/// The blocks that have fewer samples than every block should have by now: m^exponent, when the
-/// blocks have m on average.
+/// The blocks that have fewer samples than every block should have by now: m^exponent, rounded up,
+/// when the blocks have m on average.
 class Exploration {
  public:
   /// \param exponent  see PrioritySettings::exploration
@@ -50,7 +50,7 @@ class Exploration {
 template <class Lags>
 void Exploration::update(double mean, Lags&& lags) {
   if (exponent_ == 0) return;
-  const double least = std::floor(std::pow(mean, exponent_));
+  const double least = std::floor(std::pow(mean, exponent_)) + 1;
   if (least <= least_) return;
   least_ = least;
   next_ = 0;
