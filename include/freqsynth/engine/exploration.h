@@ -51,7 +51,9 @@ template <class Lags>
 void Exploration::update(double mean, Lags&& lags) {
   if (exponent_ == 0) return;
   const double least = std::floor(std::pow(mean, exponent_)) + 1;
-  if (least <= least_) return;
+  // Those that lag by more than one come again.
+  const bool taken = next_ > 0 && next_ == lagging_.size();
+  if (least <= least_ && !taken) return;
   least_ = least;
   next_ = 0;
   lagging_.clear();
