@@ -37,7 +37,8 @@ std::vector<Size> sizes() {
 
 TEST(Tiling, NoPointIsOutsideOrAskedTwice) {
   oracle::Random random(1);
-  for (const auto& [width, height] : sizes()) {
+  for (const auto& size : sizes()) {
+    const auto width = size.first, height = size.second;
     for (const double rate : {0.25, 1.0, 5.5}) {
       Synthesizer engine(helpers::settings_of(width, height, 1, random.below(3)));
       std::set<Point> points;
