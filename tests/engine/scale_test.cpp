@@ -145,18 +145,9 @@ double rmse(std::size_t width, std::size_t height, double spp, const Function& f
   Synthesizer engine(settings_of(width, height));
   engine.run([&](double x, double y) { return static_cast<float>(scale * function(x, y)); },
              {.samples_per_pixel = spp});
-  const std::vector<float> pixels = reconstruct(engine.finished_image());
-  double sum = 0;
-  for (std::size_t i = 0; i < pixels.size(); ++i) {
-    double mean = 0;
-    for (int k = 0; k < 256; ++k) {
-      mean += function(static_cast<double>(i % width) + (k % 16 + 0.5) / 16,
-                       static_cast<double>(i / width) + (k / 16 + 0.5) / 16) /
-              256;
-    }
-    sum += std::pow(double{pixels[i]} / scale - mean, 2);
-  }
-  return std::sqrt(sum / static_cast<double>(pixels.size()));
+  std::vector<float> pixels = reconstruct(engine.finished_image());
+  for (float& pixel : pixels) pixel = static_cast<float>(double{pixel} / scale);
+  return helpers::rmse_of(pixels, width, function);
 }
 
 TEST(Scale, AnElectronDensityInCubicMetresIsNotBlack) {

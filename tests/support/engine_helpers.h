@@ -24,6 +24,22 @@ inline float picture(double x, double y) {
   return static_cast<float>(smooth + edge + ripple);
 }
 
+/// Root mean square of the pixels' differences from the function's means, of 16 x 16 points each.
+template <class Function>
+double rmse_of(const std::vector<float>& pixels, std::size_t width, const Function& function) {
+  double sum = 0;
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    double mean = 0;
+    for (int k = 0; k < 256; ++k) {
+      mean += function(static_cast<double>(i % width) + (k % 16 + 0.5) / 16,
+                       static_cast<double>(i / width) + (k / 16 + 0.5) / 16) /
+              256;
+    }
+    sum += std::pow(double{pixels[i]} - mean, 2);
+  }
+  return std::sqrt(sum / static_cast<double>(pixels.size()));
+}
+
 inline freqsynth::SynthesisSettings settings_of(std::size_t width, std::size_t height,
                                                 std::size_t channels = 1, std::size_t wave = 0) {
   freqsynth::SynthesisSettings settings;

@@ -155,7 +155,6 @@ FREQSYNTH_INLINE void PixelFinisher::finish_without_gaps(const BlockFit& fit,
     for (std::size_t p = 0; p < row.pixel_count; ++p) {
       const std::size_t pixel = row.pixels[p];
       pixel_sums[pixel] -= gap.value * row.pixel_weights[p];
-      // Sums of halves and quarters are exact.
       others.weights_[pixel] -= row.pixel_weights[p];
       float* sums = others.sums_.data() + pixel * max_terms;
       for (std::size_t i = 0; i < max_terms; ++i) {
@@ -166,7 +165,10 @@ FREQSYNTH_INLINE void PixelFinisher::finish_without_gaps(const BlockFit& fit,
   others.samples_ -= fit.gaps.size();
   others.filter_ = butterworth_factors(settings_.butterworth, others.samples_);
   for (std::size_t pixel = 0; pixel < max_terms; ++pixel) {
-    const float weight = others.weights_[pixel];
+    float& weight = others.weights_[pixel];
+    // Where all samples fell away, rounding is left; and where hardly anything is, mostly rounding.
+    constexpr float least = 1e-3f;
+    if (weight < least) weight = 0;
     others.inverse_weights_[pixel] = weight > 0 ? 1 / weight : 0;
   }
   others.finish({fit.coefficients, pixel_sums, fit.residual}, out);
