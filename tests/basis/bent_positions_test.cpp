@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <limits>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "freqsynth/basis/sample_sequence.h"
@@ -110,6 +111,26 @@ TEST(BentPositions, SeePatternsThatRepeatWithTheLattice) {
     }
   }
   EXPECT_EQ(seen(positions(SamplePositions::lattice, 289), 0.5, 0), 1) << "what they are for";
+}
+
+TEST(BentPositions, LeaveNoRoomForLargeDiscs) {
+  // The first m^0.82 positions, for the m of 1/4, 1, 4 and 16 samples per pixel.
+  const std::pair<std::size_t, double> largest[] = {{15, 2}, {37, 1.5}, {105, 0.8}, {310, 0.4}};
+  constexpr int steps = 200;
+  for (const auto& [count, radius] : largest) {
+    const auto all = positions(SamplePositions::bent, count);
+    double worst = 0;
+    for (int place = 0; place < steps * steps; ++place) {
+      const double s = (place % steps + 0.5) / steps, t = (place / steps + 0.5) / steps;
+      double nearest = 2;
+      for (const SequencePosition& position : all) {
+        nearest = std::min(nearest, std::hypot(position.s - s, position.t - t));
+      }
+      worst = std::max(worst, nearest);
+    }
+    // Places between those that were tried are at most half a diagonal away.
+    EXPECT_LT(8 * (worst + 0.5 * std::sqrt(2.0) / steps), radius) << count;
+  }
 }
 
 }  // namespace
