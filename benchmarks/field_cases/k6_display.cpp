@@ -19,12 +19,11 @@ Field dark_half(double factor) {
 }
 
 // Errors of linear pixels after encoding: of the left half, and of all.
-std::vector<Figure> encoded_figures(const Field& field, bool steer, double rate) {
+std::vector<Figure> encoded_figures(const Field& field, double rate) {
   const Sampler sampler = sampler_of(field);
   std::vector<double> right = right_pixels(field);
   for (double& value : right) value = display(value);
-  auto settings = settings_of(field.width, field.height);
-  if (steer) settings = display_settings(settings);
+  const auto settings = settings_of(field.width, field.height);
   std::vector<Figure> figures;
   for (const bool left : {true, false}) {
     const Columns columns{0, left ? field.width / 2 : field.width};
@@ -43,23 +42,20 @@ std::vector<Figure> encoded_figures(const Field& field, bool steer, double rate)
   return figures;
 }
 
-Case encoded_case(double factor, bool steer) {
+Case encoded_case(double factor) {
   const std::string times = std::to_string(factor).substr(0, 4);
-  return {"V14.dark" + times + (steer ? ".steer" : ""),
-          "left half " + times + " times as bright" + (steer ? ", display steering" : ""),
+  return {"V14.dark" + times,
+          "left half " + times + " times as bright",
           {1, 4, 16},
-          [factor, steer](double rate) { return encoded_figures(dark_half(factor), steer, rate); }};
+          [factor](double rate) { return encoded_figures(dark_half(factor), rate); }};
 }
 
-Case dark_members_case(bool steer) {
-  return {std::string("K6.functions") + (steer ? ".steer" : ""),
-          std::string("32 random functions with a dark half") + (steer ? ", display steering" : ""),
-          {1, 4, 16},
-          [steer](double rate) {
+Case dark_members_case() {
+  return {"K6.functions", "32 random functions with a dark half", {1, 4, 16}, [](double rate) {
             double sum = 0, worst = 0;
             for (std::uint64_t number = 1; number <= 32; ++number) {
               const Figure left =
-                  encoded_figures(random_dark_half(table_seed, number), steer, rate).front();
+                  encoded_figures(random_dark_half(table_seed, number), rate).front();
               const double ratio =
                   std::max(left.now, least_error) / std::max(left.jittered, least_error);
               sum += std::log(ratio);
@@ -77,14 +73,12 @@ Kind display_errors() {
   Kind kind{"K6",
             "What is seen is not linear",
             "Linear light is sampled and averaged, but the picture is shown in sRGB, where errors "
-            "in dark parts count more. Both are measured: the default, which knows nothing of the "
-            "display, and the setting for such output.",
+            "in dark parts count more. A host that shows its picture can return encoded samples.",
             {}};
   for (const double factor : {0.1, 0.03, 0.01}) {
-    kind.cases.push_back(encoded_case(factor, false));
-    kind.cases.push_back(encoded_case(factor, true));
+    kind.cases.push_back(encoded_case(factor));
   }
-  for (const bool steer : {false, true}) kind.cases.push_back(dark_members_case(steer));
+  kind.cases.push_back(dark_members_case());
   return kind;
 }
 

@@ -53,10 +53,6 @@ freqsynth::SynthesisSettings uniform_settings(freqsynth::SynthesisSettings setti
   return settings;
 }
 
-freqsynth::SynthesisSettings display_settings(freqsynth::SynthesisSettings settings) {
-  return settings;
-}
-
 freqsynth::FrequencyImage synthesize_image(const Sampler& sampler,
                                            freqsynth::SynthesisSettings settings, double rate,
                                            std::uint64_t seed, std::uint64_t* samples) {
