@@ -10,9 +10,9 @@
 ///
 /// On that lattice whole columns of samples lie under each other, and edges along an axis and
 /// patterns that repeat with it are measured wrong however many samples there are. So by default
-/// the lattice is bent (SamplePositions::bent): by a smooth flow that preserves areas, so that it
-/// stays as even as it was, and along the borders the same on both sides. Points on a border stay
-/// on it.
+/// the lattice is bent (SamplePositions::bent): by a smooth flow that nearly preserves areas, so
+/// that it stays about as even as it was, and along the borders the same on both sides. Points on a
+/// border stay on it.
 #pragma once
 
 #include <cstddef>

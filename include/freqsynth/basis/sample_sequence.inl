@@ -44,10 +44,10 @@ struct Displacement {
 };
 
 /// A flow without sources, (d psi / dt, -d psi / ds) of
-///   psi = sin^2(pi s) g(t) - g(s) sin^2(pi t), g(x) = (sin(2 pi x + phase) - sin phase) a / 2 pi:
-/// areas are preserved, nothing crosses the border of the block, and opposite borders move alike.
-/// The phases keep points that mirror each other out of each other's rows and columns; were
-/// they opposite, they would cancel.
+///   psi = sin^2(pi s) g(t) + g(s) sin^2(pi t), g(x) = (sin(2 pi x + phase) - sin phase) a / 2 pi:
+/// so small a step along it nearly preserves areas, nothing crosses the border of the block, and
+/// opposite borders move alike. The phases keep points that mirror each other out of each other's
+/// rows and columns; were they opposite, they would cancel.
 inline Displacement flow(double s, double t) {
   constexpr double pi = std::numbers::pi;
   constexpr double amplitude = 0.06;

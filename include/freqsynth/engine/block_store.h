@@ -57,10 +57,8 @@ class BlockStore {
     refiner_.prefetch(state(block), index);
   }
 
-  // What the refiner says of a block; see the concept.
-  /// See Refiner.
-  // Predictions in the place of values that are not usable are no agreement: they are no degrees of
-  // freedom.
+  // What the refiner says of a block; see the concept. Predictions in the place of values that are
+  // not usable are no agreement: they are no degrees of freedom.
   /// See Refiner.
   [[nodiscard]] float freedom(std::size_t block) const { return refiner_.freedom(informed(block)); }
   /// See Refiner.

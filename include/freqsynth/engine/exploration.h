@@ -13,8 +13,8 @@
 
 namespace freqsynth {
 
-/// The blocks that have fewer samples than every block should have by now: m^exponent, rounded up,
-/// when the blocks have m on average.
+/// The blocks that have fewer samples than every block should have by now: the first whole number
+/// above m^exponent, when the blocks have m on average.
 class Exploration {
  public:
   /// \param exponent  see PrioritySettings::exploration
@@ -23,8 +23,9 @@ class Exploration {
     if (exponent_ > 0) lagging_.reserve(blocks);
   }
 
-  /// Finds the blocks that lag when every block should have more samples than before; so all blocks
-  /// are looked at less than once in a sample of each. Does not allocate.
+  /// Finds the blocks that lag when that number has grown, or when those that were found last have
+  /// all been visited; so all blocks are looked at about twice in a sample of each. Does not
+  /// allocate.
   /// \param mean   samples of a block, on average
   /// \param lags   lags(block, n): whether a block has fewer than its share of n samples
   template <class Lags>
