@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "freqsynth/basis/check.h"
 #include "freqsynth/basis/float_bits.h"
@@ -13,6 +14,7 @@
 #include "freqsynth/engine/block_store.h"
 #include "freqsynth/engine/engine.h"
 #include "freqsynth/engine/sampling_loop.inl"
+#include "freqsynth/engine/steering.h"
 #include "freqsynth/image/block_images.h"
 #include "freqsynth/jpeg/quantizer_measure.h"
 #include "freqsynth/refine/least_squares_refiner.h"
@@ -39,7 +41,11 @@ inline SynthesisSettings validated(SynthesisSettings settings, std::size_t block
     require(is_finite(importance) && (importance == 0 || in_range), "one of importance", importance,
             "0 or in 1e-6..1e6");
   }
-  if (settings.quantization) settings.quantization->validate(settings.channels);
+  if (settings.quantization) {
+    settings.quantization->validate(settings.channels);
+    require(settings.priority.steer == Steer::linear, "priority.steer",
+            static_cast<double>(settings.priority.steer), "linear, with a quantization target");
+  }
   if (!settings.shared_list) settings.shared_list = SharedInverseList(settings.list);
   return settings;
 }
@@ -52,6 +58,15 @@ inline std::vector<float> factors_of(const BlockGrid& grid, const std::vector<fl
     if (!importance.empty()) factors[b] *= importance[b];
   }
   return factors;
+}
+
+/// With the host's weights of the channels.
+inline Steering steering_of(const SynthesisSettings& settings, std::size_t blocks) {
+  std::vector<float> weights = settings.channel_weights;
+  if (weights.empty()) {
+    weights.assign(settings.channels, 1 / static_cast<float>(settings.channels));
+  }
+  return {settings.priority, settings.noisy, std::move(weights), blocks};
 }
 
 }  // namespace detail
@@ -70,9 +85,10 @@ struct Synthesizer::Implementation {
       build(QuantizerMeasure(*settings.quantization, settings.priority, settings.noisy, blocks,
                              most));
     } else if (settings.priority.measure == PriorityMeasure::change) {
-      build(ChangeMeasure(settings.priority, blocks, most));
+      build(ChangeMeasure(settings.priority, blocks, most, detail::steering_of(settings, blocks)));
     } else {
-      build(ResidualMeasure(settings.priority, blocks, most));
+      build(
+          ResidualMeasure(settings.priority, blocks, most, detail::steering_of(settings, blocks)));
     }
   }
 

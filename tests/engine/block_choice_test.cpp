@@ -57,6 +57,7 @@ class ScriptedMeasure {
     script_->asked_to_care.insert(priority);
     return priority < script_->cares_below;
   }
+  [[nodiscard]] static bool in_units() { return true; }
 
  private:
   Script* script_;

@@ -214,6 +214,7 @@ class FewestSamples {
   }
   [[nodiscard]] bool has_news(std::uint32_t) { return false; }
   [[nodiscard]] bool cares(float) const { return false; }
+  [[nodiscard]] static bool in_units() { return true; }
 };
 
 struct WithoutPriority : FewestSamples {

@@ -38,6 +38,8 @@ class BlockChoice {
   /// Share of what is owed to every block that is owed to this one: its factor, at most 1.
   [[nodiscard]] float share(std::uint32_t block) const { return std::min(factors_[block], 1.0f); }
   /// See BlockMeasure.
+  [[nodiscard]] bool in_units() const { return measure_.in_units(); }
+  /// See BlockMeasure.
   void use_units(const BlockView<R>& view, float factor);
 
   /// A block has taken in a sample, which changed it by `change`.
@@ -69,7 +71,7 @@ BlockChoice<R, M>::BlockChoice(M measure, std::vector<float> factors)
 template <Refiner R, BlockMeasure<R> M>
 void BlockChoice<R, M>::use_units(const BlockView<R>& view, float factor) {
   measure_.use_units(view, factor);
-  if (factor == 1) return;
+  if (factor == 1 || !measure_.in_units()) return;
   for (std::size_t b = 0; b < queue_.size(); ++b) {
     const float priority = queue_.priority(b);
     // Blocks without a sample stay the most urgent ones.

@@ -8,6 +8,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "freqsynth/basis/config.h"
@@ -15,6 +16,7 @@
 #include "freqsynth/engine/block_store.h"
 #include "freqsynth/engine/priority.h"
 #include "freqsynth/engine/signal_statistics.h"
+#include "freqsynth/engine/steering.h"
 #include "freqsynth/refine/refiner.h"
 
 namespace freqsynth {
@@ -43,6 +45,8 @@ concept BlockMeasure = requires(M& measure, const M& known, const BlockView<R>& 
   { measure.has_news(block) } -> std::same_as<bool>;
   /// Whether a block whose priority is `value` cares for news.
   { known.cares(value) } -> std::same_as<bool>;
+  /// Whether priorities are squares in the blocks' units, and change with them.
+  { known.in_units() } -> std::same_as<bool>;
 };
 
 /// The residual of a block, weighted over the channels, but no more than the signal's range allows:
@@ -68,12 +72,14 @@ template <Refiner R>
 class ChangeMeasure {
  public:
   /// \param most_samples  of a block
-  ChangeMeasure(const PrioritySettings& settings, std::size_t blocks, std::size_t most_samples)
-      : metric_(settings, most_samples), variations_(blocks) {}
+  ChangeMeasure(const PrioritySettings& settings, std::size_t blocks, std::size_t most_samples,
+                Steering steering = {})
+      : metric_(settings, most_samples), steering_(std::move(steering)), variations_(blocks) {}
 
   /// See BlockMeasure.
   template <Refiner R>
   void use_units(const BlockView<R>&, float factor) {
+    if (steering_.settled()) return;
     for (float& variation : variations_) variation *= factor;
   }
 
@@ -87,24 +93,43 @@ class ChangeMeasure {
     const float range = 8 * view.signal.most_variance(view.blocks.refiner().weights());
     const float most = range * terms / (samples * samples);
     // What was noted before the range was known may be larger than all of it.
-    const float before = std::min(variations_[block], range);
-    variations_[block] = metric_.variation(before, std::min(change, most));
+    float& variation = variations_[block];
+    change = std::min(change, most);
+    if (steering_.linear()) {
+      variation = metric_.variation(std::min(variation, range), change);
+    } else {
+      absorb_steered(view.blocks, block, change);
+    }
   }
 
   /// See BlockMeasure.
   template <Refiner R>
   [[nodiscard]] float priority(const BlockView<R>& view, std::uint32_t block, float factor) const {
-    return factor *
-           metric_.priority(variations_[block], view.blocks.samples(block), view.signal.variance());
+    const float variance = in_units() ? view.signal.variance() : steering_.variance();
+    return factor * metric_.priority(variations_[block], view.blocks.samples(block), variance);
   }
 
   /// See BlockMeasure.
   [[nodiscard]] static bool has_news(std::uint32_t) { return false; }
   /// See BlockMeasure.
   [[nodiscard]] static bool cares(float) { return false; }
+  /// See BlockMeasure.
+  [[nodiscard]] bool in_units() const { return steering_.linear(); }
 
  private:
+  template <Refiner R>
+  void absorb_steered(const BlockStore<R>& blocks, std::uint32_t block, float change) {
+    float& variation = variations_[block];
+    if (steering_.settled()) change = steering_.change(blocks, block, change);
+    variation = metric_.variation(variation, change);
+    if (!steering_.absorbed(blocks, block)) return;
+    for (std::uint32_t b = 0; b < blocks.size(); ++b) {
+      variations_[b] = steering_.change(blocks, b, variations_[b]);
+    }
+  }
+
   PriorityMetric metric_;
+  Steering steering_;
   std::vector<float> variations_;
 };
 
@@ -124,7 +149,11 @@ class ResidualBook {
   /// A block has taken in a sample.
   template <Refiner R>
   void absorbed(const BlockView<R>& view, std::uint32_t block) {
-    const float residual = plausible_residual(view, block);
+    note(block, plausible_residual(view, block));
+  }
+
+  /// A block has other residuals now.
+  void note(std::uint32_t block, float residual) {
     sum_ += double{residual} - double{residuals_[block]};
     residuals_[block] = residual;
   }
@@ -178,8 +207,10 @@ class ResidualBook {
 class ResidualMeasure {
  public:
   /// \param most_samples  of a block
-  ResidualMeasure(const PrioritySettings& settings, std::size_t blocks, std::size_t most_samples)
+  ResidualMeasure(const PrioritySettings& settings, std::size_t blocks, std::size_t most_samples,
+                  Steering steering = {})
       : metric_(settings, most_samples),
+        steering_(std::move(steering)),
         neighbours_(static_cast<float>(settings.neighbours)),
         image_(static_cast<float>(settings.image)),
         book_(blocks) {}
@@ -187,34 +218,55 @@ class ResidualMeasure {
   /// See BlockMeasure.
   template <Refiner R>
   void use_units(const BlockView<R>&, float factor) {
-    book_.rescale(factor);
+    if (in_units()) book_.rescale(factor);
   }
 
   /// See BlockMeasure.
   template <Refiner R>
   void absorbed(const BlockView<R>& view, std::uint32_t block, float) {
-    book_.absorbed(view, block);
+    if (steering_.linear()) {
+      book_.absorbed(view, block);
+    } else if (steering_.absorbed(view.blocks, block)) {
+      for (std::uint32_t b = 0; b < view.blocks.size(); ++b) note_steered(view, b);
+    } else if (steering_.settled()) {
+      note_steered(view, block);
+    }
   }
 
   /// See BlockMeasure.
   template <Refiner R>
   [[nodiscard]] float priority(const BlockView<R>& view, std::uint32_t block, float factor) const {
     const std::uint32_t samples = view.blocks.samples(block);
-    const float residual =
-        view.signal.rounding() +
-        book_.pooled(
-            view, block, [&](std::uint32_t b) { return book_.of(b); }, neighbours_, image_);
-    return factor * metric_.expected_change(residual, samples, view.blocks.refiner().terms(samples),
-                                            view.signal.variance());
+    const float pooled = book_.pooled(
+        view, block, [&](std::uint32_t b) { return book_.of(b); }, neighbours_, image_);
+    const std::size_t terms = view.blocks.refiner().terms(samples);
+    if (steering_.linear()) {
+      return factor * metric_.expected_change(view.signal.rounding() + pooled, samples, terms,
+                                              view.signal.variance());
+    }
+    const float pixels = max_terms * view.grid.area(block);
+    return factor * steering_.gain(static_cast<float>(samples) / pixels) *
+           metric_.expected_change(steering_.rounding() + pooled, samples, terms,
+                                   steering_.variance());
   }
 
   /// See BlockMeasure.
   [[nodiscard]] bool has_news(std::uint32_t block) { return book_.has_news(block); }
   /// See BlockMeasure.
   [[nodiscard]] static bool cares(float) { return true; }
+  /// See BlockMeasure.
+  [[nodiscard]] bool in_units() const { return steering_.linear(); }
 
  private:
+  template <Refiner R>
+  void note_steered(const BlockView<R>& view, std::uint32_t block) {
+    book_.note(block, steering_.residual(view.blocks, block, [&](std::size_t c) {
+      return plausible_residual(view, block, c);
+    }));
+  }
+
   PriorityMetric metric_;
+  Steering steering_;
   float neighbours_, image_;
   ResidualBook book_;
 };

@@ -65,7 +65,8 @@ std::optional<StopReason> Engine<R, M>::prepare_wave() {
   const std::size_t most = std::min<std::uint64_t>(wave_size_, stop_.samples - stats_.samples);
   reserve(most);
   // In the unit of the priorities. Of a signal that is all 0 so far, everything is below it.
-  const double rule = std::ldexp(stop_.aliasing_threshold, -units_.exponent());
+  const int exponent = choice_.in_units() ? units_.exponent() : 0;
+  const double rule = std::ldexp(stop_.aliasing_threshold, -exponent);
   const double square = units_.known() || rule == 0 ? rule * rule : double{most_priority};
   const auto threshold = static_cast<float>(std::min(square, double{most_priority}));
   choose_lagging(most);

@@ -21,6 +21,14 @@ enum class PriorityMeasure : std::uint8_t {
   change     ///< the paper's: from what the last samples have changed
 };
 
+/// In what unit the errors of blocks are compared.
+enum class Steer : std::uint8_t {
+  linear,    ///< that of the signal
+  relative,  ///< relative to what a block shows: all parts of a picture count the same, whatever
+             ///< their brightness, but those that are 64 times darker than its median, or more
+  display    ///< as a display in sRGB shows them: linear light, clamped to 0..1 and encoded
+};
+
 /// With PriorityMeasure::change, p_n = (1 - w) p_{n-1} + w (U r^n + V_n), where V_n is the mean
 /// squared change of the block's pixels caused by its n-th sample and U r^n the uncertainty of a
 /// block that has had few samples.
@@ -30,6 +38,11 @@ enum class PriorityMeasure : std::uint8_t {
 /// U r^n. R is that of the block, pooled with the blocks beside it and with the whole image: a
 /// regular pattern may look flat on the first samples of a whole block, but its neighbours know
 /// better.
+///
+/// All of these are squares of the signal where Steer::linear is set. Otherwise R, V and the
+/// image's variance are those of the signal as it is seen: as ln(v) for large v, or encoded. With
+/// PriorityMeasure::residual blocks that have had more than a sample per pixel then also count by
+/// its inverse, unless the sampler is noisy.
 struct PrioritySettings {
   /// w, weight of the newest estimate, in (0, 1].
   double weight = 0.3;
@@ -48,6 +61,12 @@ struct PrioritySettings {
   /// samples on average, those with fewer than m^exploration come first. In [0, 1]; 0: never, 1:
   /// all blocks get the same number of samples.
   double exploration = 0.82;
+  /// In what unit errors count. For hosts that give linear light and show it encoded: to a linear
+  /// measure, dark parts are good enough when what is seen of them is not. Not with a quantization
+  /// target, which has a unit of its own.
+  Steer steer = Steer::linear;
+  /// What a value is multiplied by before it is shown, for Steer::display. In 1e-30..1e30.
+  double exposure = 1;
 
   /// \throws std::invalid_argument naming the field and the value when out of range.
   FREQSYNTH_API void validate() const;

@@ -21,6 +21,10 @@ FREQSYNTH_INLINE void PrioritySettings::validate() const {
   up_to_most(image, "priority.image");
   detail::require(detail::is_finite(exploration) && exploration >= 0 && exploration <= 1,
                   "priority.exploration", exploration, "in [0, 1]");
+  detail::require(steer <= Steer::display, "priority.steer", static_cast<double>(steer),
+                  "linear, relative or display");
+  detail::require(detail::is_finite(exposure) && exposure >= 1e-30 && exposure <= 1e30,
+                  "priority.exposure", exposure, "in 1e-30..1e30");
   detail::require(detail::is_finite(decay) && decay >= 0 && decay < 1, "priority.decay", decay,
                   "in [0, 1)");
 }

@@ -20,7 +20,8 @@ struct StopRule {
   std::uint64_t samples = std::numeric_limits<std::uint64_t>::max();
   /// The aliasing threshold of section 4.4 in the signal's unit, >= 0: no block changes by more
   /// with its next sample, as root mean square over its pixels and by the estimate of
-  /// PrioritySettings::measure. Not an error bound.
+  /// PrioritySettings::measure. Not an error bound. Where PrioritySettings::steer is not linear,
+  /// its unit is that of what is seen: a share of the value, or of the display's range.
   double aliasing_threshold = 0;
   /// The aliasing threshold ends nothing before each block has had that many samples; those whose
   /// importance is 0 aside. 25 are a complete lattice of 5 x 5: that much of any image is looked

@@ -13,6 +13,7 @@
 
 #include "freqsynth/basis/check.h"
 #include "freqsynth/basis/float_bits.h"
+#include "freqsynth/basis/srgb.h"
 #include "freqsynth/image/pixel_transform.h"
 #include "freqsynth/jpeg/display_encoding.h"
 
@@ -24,14 +25,6 @@ namespace detail {
 inline float value_or_nan(bool good, float value) {
   constexpr std::uint32_t nan = 0x7fc00000u;
   return std::bit_cast<float>(good ? std::bit_cast<std::uint32_t>(value) : nan);
-}
-
-/// The transfer function of sRGB for a linear value in 0..1, and its inverse.
-inline float srgb_of_linear(float x) {
-  return x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1 / 2.4f) - 0.055f;
-}
-inline float linear_of_srgb(float x) {
-  return x <= 0.04045f ? x / 12.92f : std::pow((x + 0.055f) / 1.055f, 2.4f);
 }
 
 inline float clamp_to_one(float x) { return std::fmin(std::fmax(x, 0.0f), 1.0f); }

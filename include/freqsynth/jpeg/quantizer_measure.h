@@ -65,6 +65,8 @@ class QuantizerMeasure {
   [[nodiscard]] bool has_news(std::uint32_t block) { return book_.has_news(block); }
   /// Of the others only whether they still meet the target is of interest.
   [[nodiscard]] static bool cares(float priority) { return priority == 0; }
+  /// See BlockMeasure.
+  [[nodiscard]] static bool in_units() { return true; }
 
  private:
   /// Samples of a block, or as many as one of 8 x 8 pixels has with the same number per pixel.
