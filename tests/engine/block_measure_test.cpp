@@ -141,6 +141,44 @@ TEST(ChangeMeasure, EndlessChangeStaysANumber) {
   EXPECT_LT(measure.priority(image.view(), 0, 1), 1e-3f * priority);
 }
 
+TEST(ChangeMeasure, SteeredCountsChangesAsTheyAreSeen) {
+  for (const Steer steer : {Steer::relative, Steer::display}) {
+    PrioritySettings settings;
+    settings.steer = steer;
+    Image<ScriptedRefiner> image(2, 2, ScriptedRefiner({2}));
+    Steering steering(settings, false, {2}, 4);
+    ChangeMeasure measure(settings, 4, 300, steering);
+    EXPECT_FALSE(measure.in_units());
+    std::vector<Real> variations(4);
+    const auto w = static_cast<Real>(settings.weight);
+    oracle::Random random(1);
+    for (int n = 0; n < 300; ++n) {
+      // At first each block in turn.
+      const auto block = static_cast<Block>(n < 4 ? n : static_cast<int>(random.below(4)));
+      const auto change = static_cast<float>(std::pow(random.uniform(0, 0.5), 6));
+      image.blocks.absorb(block, &change);
+      const float seen = steering.settled() ? steering.change(image.blocks, block, change) : change;
+      variations[block] = (1 - w) * variations[block] + w * static_cast<Real>(seen);
+      if (steering.absorbed(image.blocks, block)) {
+        for (Block b = 0; b < 4; ++b) {
+          variations[b] = static_cast<Real>(
+              steering.change(image.blocks, b, static_cast<float>(variations[b])));
+        }
+      }
+      measure.absorbed(image.view(), block, change);
+      measure.use_units(image.view(), steering.settled() ? 4.0f : 1.0f);  // is not asked
+      const std::size_t samples = image.blocks.samples(block);
+      const Real u = static_cast<Real>(steering.variance()) *
+                     (uncertainty(settings, samples) +
+                      static_cast<Real>(1e-12) / static_cast<Real>(samples + 1));
+      const Real expected = variations[block] + u;
+      ASSERT_NEAR(measure.priority(image.view(), block, 1), static_cast<double>(expected),
+                  tolerance(expected + Real{0.1L}))
+          << "sample " << n;
+    }
+  }
+}
+
 // ---------------------------------------------------------------------------------- the residuals
 
 /// Feeds blocks at random, so that they have different residuals and numbers of samples. Calls
@@ -277,6 +315,63 @@ TEST(ResidualMeasure, IsTheExpectedChangeOfAPooledResidual) {
     };
     feed(image, 1000, random, check);
     EXPECT_EQ(checks, 1000);
+  }
+}
+
+TEST(ResidualMeasure, SteeredPoolsResidualsAsTheyAreSeen) {
+  const std::vector<float> weights{0.25f, 0, 3};
+  for (const Steer steer : {Steer::relative, Steer::display}) {
+    PrioritySettings settings;
+    settings.steer = steer;
+    Image<ScriptedRefiner> image(4, 3, ScriptedRefiner(weights));
+    Steering steering(settings, false, weights, 12);
+    ResidualMeasure measure(settings, 12, 300, steering);
+    EXPECT_FALSE(measure.in_units());
+    oracle::Random random(3);
+    std::vector<Real> seen(12);
+    const auto see = [&](Block b) {
+      seen[b] = static_cast<Real>(steering.residual(
+          image.blocks, b, [&](std::size_t c) { return image.blocks.residual(b, c); }));
+    };
+    const auto absorbed = [&](Block block) {
+      measure.absorbed(image.view(), block, 1e9f);
+      if (steering.absorbed(image.blocks, block)) {
+        for (Block b = 0; b < 12; ++b) see(b);
+      } else if (steering.settled()) {
+        see(block);
+      }
+    };
+    const std::vector<float> first{0.5f, 1, 0.02f};
+    for (Block block = 0; block < 12; ++block) {
+      image.blocks.absorb(block, first.data());
+      absorbed(block);
+    }
+    ASSERT_TRUE(steering.settled());
+    feed(image, 2000, random, [&](Block fed) {
+      absorbed(fed);
+      measure.use_units(image.view(), 4);  // is not asked
+      Real mean = 0;
+      for (const Real residual : seen) mean += residual / 12;
+      Real beside = 0;
+      for (const Block other : image.beside(fed)) {
+        beside += seen[other] / static_cast<Real>(image.beside(fed).size());
+      }
+      const std::size_t samples = image.blocks.samples(fed);
+      const auto n = static_cast<Real>(samples);
+      const auto own = static_cast<Real>(image.blocks.freedom(fed));
+      const Real residual = (own * seen[fed] + 16 * beside + mean) / (own + 17);
+      const Real least = static_cast<Real>(1e-12) / (n + 1);
+      const auto variance = static_cast<Real>(steering.variance());
+      const Real rounding = static_cast<Real>(3.25e-12);
+      const Real expected =
+          std::min(Real{1}, 64 / n) *
+          ((residual + rounding + variance * (uncertainty(settings, samples) + least)) *
+               static_cast<Real>(image.blocks.refiner().terms(samples)) / (n * n) +
+           variance * least);
+      ASSERT_NEAR(measure.priority(image.view(), fed, 1), static_cast<double>(expected),
+                  tolerance(expected))
+          << "block " << fed << " of " << samples << " samples";
+    });
   }
 }
 

@@ -43,6 +43,11 @@ std::vector<Field> fields() {
       {"priority.decay", [](auto& s, double v) { s.priority.decay = v; }},
       {"priority.neighbours", [](auto& s, double v) { s.priority.neighbours = v; }},
       {"priority.image", [](auto& s, double v) { s.priority.image = v; }},
+      {"priority.exposure",
+       [](auto& s, double v) {
+         s.priority.steer = Steer::display;
+         s.priority.exposure = v;
+       }},
       {"samples_per_term", [](auto& s, double v) { s.list.samples_per_term = v; }},
       {"channel_weights",
        [](auto& s, double v) { s.channel_weights.assign(2, static_cast<float>(v)); }},

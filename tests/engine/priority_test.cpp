@@ -110,6 +110,18 @@ TEST(Priority, WrongSettingsAreNamed) {
   refuses({0.3, 1, 1}, "decay", "1");
   refuses({0.3, 1, -0.5}, "decay", "-0.5");
   refuses({0.3, 1, nan}, "decay", "nan");
+  for (const double exposure : {0.0, -1.0, 1e-31, 1e31, nan, infinity}) {
+    PrioritySettings settings;
+    settings.exposure = exposure;
+    EXPECT_THAT([&] { settings.validate(); },
+                ThrowsMessage<std::invalid_argument>(HasSubstr("exposure")))
+        << exposure;
+  }
+  PrioritySettings steered;
+  steered.steer = static_cast<Steer>(3);
+  refuses(steered, "steer", "3");
+  steered.steer = Steer::display;
+  EXPECT_NO_THROW(steered.validate());
   EXPECT_NO_THROW(PrioritySettings{}.validate());
   EXPECT_NO_THROW((PrioritySettings{1, 0, 0}.validate()));
 }

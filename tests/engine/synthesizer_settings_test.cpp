@@ -259,6 +259,8 @@ TEST(SynthesizerSettings, WrongSettingsAreNamed) {
   refuses([](auto& s) { s.priority.decay = 1.5; }, "decay", "1.5");
   refuses([](auto& s) { s.priority.neighbours = -2; }, "neighbours", "-2");
   refuses([](auto& s) { s.priority.image = -3; }, "image", "-3");
+  refuses([](auto& s) { s.priority.exposure = 0; }, "priority.exposure", "0");
+  refuses([](auto& s) { s.priority.steer = static_cast<Steer>(7); }, "priority.steer", "7");
   refuses([](auto& s) { s.max_samples_per_block = 0; }, "max_samples_per_block", "0");
   refuses([](auto& s) { s.max_samples_per_block = 1050626; }, "max_samples_per_block", "1050626");
   refuses([](auto& s) { s.channel_weights = {1, 2, 3}; }, "channel_weights", "3");

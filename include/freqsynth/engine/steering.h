@@ -141,6 +141,7 @@ void Steering::settle(const BlockStore<R>& blocks) {
   settled_ = true;
   double sum = 0;
   for (std::size_t c = 0; c < weights_.size(); ++c) {
+    if (weights_[c] == 0) continue;
     if (steer_ == Steer::relative) set_level(blocks, c);
     sum += double{weights_[c]} * variance_of(blocks, c);
   }
@@ -188,8 +189,10 @@ void Steering::look_at(const BlockStore<R>& blocks, std::uint32_t block) {
   constexpr double least = 1e-6;
   std::array<float, max_terms> coefficients;
   for (std::size_t c = 0; c < weights_.size(); ++c) {
+    if (weights_[c] == 0) continue;
     const double middle = mean(blocks, block, c, coefficients);
-    double square = noisy_ ? 0 : double{blocks.residual(block, c)};
+    const double share = double{blocks.freedom(block)} / std::max(blocks.samples(block), 1u);
+    double square = noisy_ ? 0 : double{blocks.residual(block, c)} * std::min(share, 1.0);
     for (std::size_t i = 1; i < max_terms; ++i) {
       square += double{coefficients[i]} * double{coefficients[i]} / max_terms;
     }
