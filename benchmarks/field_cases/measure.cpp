@@ -53,6 +53,11 @@ freqsynth::SynthesisSettings uniform_settings(freqsynth::SynthesisSettings setti
   return settings;
 }
 
+freqsynth::SynthesisSettings display_settings(freqsynth::SynthesisSettings settings) {
+  settings.priority.steer = freqsynth::Steer::display;
+  return settings;
+}
+
 freqsynth::FrequencyImage synthesize_image(const Sampler& sampler,
                                            freqsynth::SynthesisSettings settings, double rate,
                                            std::uint64_t seed, std::uint64_t* samples) {

@@ -46,6 +46,9 @@ struct Picture {
 /// The same engine with equal samples in every block.
 [[nodiscard]] freqsynth::SynthesisSettings uniform_settings(freqsynth::SynthesisSettings settings);
 
+/// Errors are compared as a display in sRGB shows them.
+[[nodiscard]] freqsynth::SynthesisSettings display_settings(freqsynth::SynthesisSettings settings);
+
 /// Samples until `rate` samples per pixel (infinite: no limit, which needs a quantization target)
 /// and returns the engine's finished image. `settings.list.seed` is set to `seed`.
 [[nodiscard]] freqsynth::FrequencyImage synthesize_image(const Sampler& sampler,
