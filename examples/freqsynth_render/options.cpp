@@ -3,7 +3,7 @@
 
 #include <OpenImageIO/argparse.h>
 
-#include <array>
+#include <cstddef>
 #include <cstdio>
 #include <limits>
 #include <stdexcept>
@@ -23,21 +23,26 @@ void read_quality(std::string_view option, const std::string& text, std::optiona
   quality = number;
 }
 
-/// One of two names, for the values 0 and 1.
-template <class Choice>
+/// One of some names, for the values 0, 1 and so on.
+template <class Choice, std::size_t Count>
 void read_name(std::string_view option, const std::string& text,
-               const std::array<std::string_view, 2>& names, Choice& choice) {
+               const std::string_view (&names)[Count], Choice& choice) {
   if (text.empty()) return;
-  if (text != names[0] && text != names[1]) {
-    refuse(option, text, std::string(names[0]).append(" or ").append(names[1]));
+  std::string wanted;
+  for (std::size_t i = 0; i < Count; ++i) {
+    if (text == names[i]) {
+      choice = static_cast<Choice>(i);
+      return;
+    }
+    wanted.append(i == 0 ? "" : i + 1 < Count ? ", " : " or ").append(names[i]);
   }
-  choice = static_cast<Choice>(text == names[1]);
+  refuse(option, text, wanted);
 }
 
 /// The values of options as they were given; empty: not given.
 struct Texts {
   std::string size, spp, reference, wave, seed, threads, terms_every, cutoff, order, pixel_filter;
-  std::string scale, channels, zone_frequency, average;
+  std::string scale, channels, zone_frequency, average, steer;
   std::string quality, until_quality, subsampling, tolerance;
   bool no_butterworth = false;
   bool help = false;
@@ -78,6 +83,10 @@ void describe_method(OIIO::ArgParse& parser, Options& options, Texts& texts) {
       .help("zoneplate: cycles per pixel at the corner");
   parser.arg("--average %s:NAME", &texts.average)
       .help("light: radiance; display: encoded values (light, with --direct display)");
+  parser.arg("--steer %s:NAME", &texts.steer)
+      .help(
+          "What errors decide where samples are taken: linear, relative to the brightness, or "
+          "display: as seen in sRGB (linear)");
 }
 
 void describe_jpeg(OIIO::ArgParse& parser, Options& options, Texts& texts) {
@@ -115,6 +124,7 @@ void read_method(const Texts& texts, Options& options) {
   }
   read_name("--pixel-filter", texts.pixel_filter, {"none", "box"}, options.pixel_filter);
   read_name("--channels", texts.channels, {"rgb", "gray"}, options.gray);
+  read_name("--steer", texts.steer, {"linear", "relative", "display"}, options.steer);
 }
 
 /// What depends on whether coefficients become a JPEG file.
@@ -141,6 +151,8 @@ void check_combinations(const Texts& texts, const Options& options) {
   const bool has_frames = !options.frames.empty();
   refuse_if(options.until_quality && options.averaging == Averaging::light,
             "--until-quality: has no --average light");
+  refuse_if(options.steer != freqsynth::Steer::linear && options.averaging == Averaging::display,
+            "--steer: is for linear values, has no --average display");
   refuse_if(options.direct && (options.output.empty() || options.scale != 1 ||
                                options.reference != 0 || has_frames),
             "--direct: needs -o and has no --frames, --scale and --reference");

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "freqsynth/engine/priority.h"
 #include "freqsynth/image/butterworth.h"
 #include "freqsynth/image/reconstructor.h"
 #include "freqsynth/jpeg/quantization.h"
@@ -39,6 +40,7 @@ struct Options {
   bool gray = false;
   std::optional<double> zone_frequency;
   Averaging averaging = Averaging::light;
+  freqsynth::Steer steer = freqsynth::Steer::linear;
   int quality = 95;  // of a JPEG file
   freqsynth::Subsampling subsampling = freqsynth::Subsampling::none;
   bool direct = false;  // coefficients to JPEG, without pixels

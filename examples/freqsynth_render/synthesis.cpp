@@ -88,6 +88,7 @@ freqsynth::SynthesisSettings settings_of(const Options& options, const scenes::S
   settings.channels = options.gray ? 1 : 3;
   settings.wave = options.wave;
   settings.noisy = scene.noisy();
+  settings.priority.steer = options.steer;
   settings.list.seed = options.seed;
   settings.list.samples_per_term = options.terms_every;
   if (options.until_quality) {

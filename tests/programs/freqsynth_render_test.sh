@@ -32,6 +32,9 @@ expect_failure 2 "--quality 101" "${small[@]}" --direct --quality 101 -o a.jpg
 expect_failure 2 "--until-quality best" "${small[@]}" --until-quality best -o a.jpg
 expect_failure 2 "--subsampling 422" "${small[@]}" --subsampling 422 -o a.jpg
 expect_failure 2 "--average median" "${small[@]}" --average median -o a.jpg
+expect_failure 2 "--steer seen: not linear, relative or display" "${small[@]}" --steer seen -o a.png
+expect_failure 2 "--steer" "${small[@]}" --steer display --average display -o a.png
+expect_failure 2 "--steer" "${small[@]}" --steer relative --until-quality 50 -o a.jpg
 expect_failure 2 "--tolerance 0" "${small[@]}" --until-quality 50 --tolerance 0 -o a.jpg
 expect_failure 2 "--tolerance" "${small[@]}" --tolerance 1 -o a.jpg
 expect_failure 2 "--progressive" "${small[@]}" --progressive -o a.jpg
@@ -188,7 +191,7 @@ cmp one.pfm four.pfm || fail "the picture depends on the number of threads"
 
 # The options that change the picture do.
 for option in "--wave 8" "--terms-every 3" "--cutoff 0.4" "--order 1" "--no-butterworth" \
-    "--pixel-filter none" "--no-residuals" "--channels gray" "--average display" "--scale 2" "--zone-frequency 0.1" "--reference 4"; do
+    "--pixel-filter none" "--no-residuals" "--channels gray" "--average display" "--steer relative" "--steer display" "--scale 2" "--zone-frequency 0.1" "--reference 4"; do
   # shellcheck disable=SC2086
   "$program" "${small[@]}" $option -o option.pfm
   ! cmp -s one.pfm option.pfm || fail "$option changes nothing"

@@ -124,7 +124,8 @@ bool Steering::absorbed(const BlockStore<R>& blocks, std::uint32_t block) {
   }
   // What a block shows changes little once it is known.
   const std::uint32_t samples = blocks.samples(block);
-  if (samples < max_terms || samples % 8 == 0) look_at(blocks, block);
+  const std::uint32_t step = samples < 16 ? 1 : samples < 64 ? 4 : 16;
+  if (samples % step == 0) look_at(blocks, block);
   return false;
 }
 
@@ -182,6 +183,20 @@ double Steering::variance_of(const BlockStore<R>& blocks, std::size_t channel) c
   return std::max({square - values / count * (values / count), doubt * square, least});
 }
 
+namespace detail {
+
+/// Sum of the squares of all coefficients but F(0,0), in an order that compilers can vectorise.
+inline float energy(const std::array<float, max_terms>& coefficients) {
+  std::array<float, 8> sums{};
+  for (std::size_t i = 8; i < max_terms; ++i) sums[i % 8] += coefficients[i] * coefficients[i];
+  float sum = 0;
+  for (std::size_t i = 1; i < 8; ++i) sum += coefficients[i] * coefficients[i];
+  for (const float part : sums) sum += part;
+  return sum;
+}
+
+}  // namespace detail
+
 /// Sets the slopes of a block.
 template <Refiner R>
 void Steering::look_at(const BlockStore<R>& blocks, std::uint32_t block) {
@@ -193,9 +208,7 @@ void Steering::look_at(const BlockStore<R>& blocks, std::uint32_t block) {
     const double middle = mean(blocks, block, c, coefficients);
     const double share = double{blocks.freedom(block)} / std::max(blocks.samples(block), 1u);
     double square = noisy_ ? 0 : double{blocks.residual(block, c)} * std::min(share, 1.0);
-    for (std::size_t i = 1; i < max_terms; ++i) {
-      square += double{coefficients[i]} * double{coefficients[i]} / max_terms;
-    }
+    square += double{detail::energy(coefficients)} / max_terms;
     const double small = steer_ == Steer::relative ? levels_[c] : 1e-3 / exposure_;
     const double reach = std::max(std::ldexp(std::sqrt(square), blocks.exponent(c)),
                                   least * std::max(std::abs(middle), small));
