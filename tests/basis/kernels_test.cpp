@@ -87,12 +87,25 @@ TEST(Kernels, AbsorbSampleIsItsFormula) {
         state[i] = state[i] + (i < row.terms ? innovation * row.gain[i] : absorbed * row.rest[i]);
       }
       for (std::size_t p = 0; p < row.pixel_count; ++p) {
-        const std::size_t place = c * max_terms + row.pixels[p];
+        const std::size_t place = 2 * c * max_terms + row.pixels[p];
         expect_within(after->sums[place], before->sums[place] + absorbed * row.pixel_weights[p],
                       "sum");
       }
+      Number spread = before->residuals[2 * c + 1];
+      for (std::size_t pixel = 0; pixel < max_terms; ++pixel) {
+        const std::size_t place = (2 * c + 1) * max_terms + pixel;
+        if (pixel != row.own_pixel) {
+          EXPECT_EQ(after->sums[place], before->sums[place]);
+          continue;
+        }
+        expect_within(after->sums[place], before->sums[place] + absorbed, "own sum");
+        Number off = absorbed - before->sums[place] * Number(row.own_share);
+        off.value = std::abs(off.value);
+        if (row.own_share > 0 && off.value > spread.value) spread = off;
+      }
+      expect_within(after->residuals[2 * c + 1], spread, "spread");
       Number squared = row.change * innovation * innovation;
-      Number residual = before->residuals[c] + row.residual * innovation * innovation;
+      Number residual = before->residuals[2 * c] + row.residual * innovation * innovation;
       if (row.border != nullptr) {
         products.clear();
         for (std::size_t i = 0; i < row.terms; ++i) products.push_back(border.b[i] * state[i]);
@@ -106,7 +119,7 @@ TEST(Kernels, AbsorbSampleIsItsFormula) {
       for (std::size_t i = 0; i < max_terms; ++i) {
         expect_within(after->states[c * max_terms + i], state[i], "state");
       }
-      expect_within(after->residuals[c], residual, "residual");
+      expect_within(after->residuals[2 * c], residual, "residual");
       changes.push_back(before->weights[c] * squared);
     }
     expect_within(after->change, Number::sum(changes), "change");
@@ -114,8 +127,12 @@ TEST(Kernels, AbsorbSampleIsItsFormula) {
     for (std::size_t i = 0; i < max_terms; ++i) {
       const std::size_t place = before->channels * max_terms + i;
       EXPECT_EQ(after->states[place], before->states[place]);
-      EXPECT_EQ(after->sums[place], before->sums[place]);
+      EXPECT_EQ(after->sums[2 * before->channels * max_terms + i],
+                before->sums[2 * before->channels * max_terms + i]);
+      EXPECT_EQ(after->sums[(2 * before->channels + 1) * max_terms + i],
+                before->sums[(2 * before->channels + 1) * max_terms + i]);
     }
+    EXPECT_EQ(after->residuals[2 * before->channels], before->residuals[2 * before->channels]);
     EXPECT_EQ(after->residuals.back(), before->residuals.back());
   });
 }

@@ -105,7 +105,9 @@ std::array<double, max_terms> literal_pixels(const FittedBlock& block, std::size
       const auto share = [](double x, double low) {
         return x < low || x > low + 1 ? 0.0 : x == low || x == low + 1 ? 0.5 : 1.0;
       };
-      const double w = share(8 * p.s, column) * share(8 * p.t, row);
+      // Of samples on the border of the block half is left out.
+      const bool border = p.s == 0 || p.s == 1 || p.t == 0 || p.t == 1;
+      const double w = share(8 * p.s, column) * share(8 * p.t, row) * (border ? 0.5 : 1);
       weight += w;
       values += w * edge(p.s, p.t);
       sum += w * (edge(p.s, p.t) - evaluate_block(filtered, p.s, p.t));

@@ -90,9 +90,9 @@ TEST(QuantizationTarget, PredictedVariancesAreThoseOfNoise) {
     return static_cast<double>(random >> 8) / (1 << 24) - 0.5;
   };
   struct alignas(64) State {
-    float values[144];
+    float values[208];
   };
-  ASSERT_EQ(refiner.state_size(), 144u);
+  ASSERT_EQ(refiner.state_size(), 208u);
   std::array<double, max_terms> squares{};
   double residuals = 0;
   for (int b = 0; b < blocks; ++b) {

@@ -209,20 +209,20 @@ struct Configuration {
 };
 
 constexpr Configuration configurations[] = {
-    {"color", color, 0x30c50fbbace194b1u},
-    {"gray", gray, 0x6d0487493b90bb46u},
-    {"change", change, 0xb27ca9d80ca71792u},
-    {"strict", strict, 0x791759dfdc2ea1e4u},
-    {"weighted", weighted, 0x91b536ac2a8dbef6u},
-    {"noisy", noisy, 0x7ebda78072d2df13u},
-    {"until_quantized", until_quantized, 0x7664f8772362a0adu},
-    {"threshold", threshold, 0xf646fe670b98ef55u},
-    {"capped", capped, 0xc2bb4364163a5fb1u},
-    {"other_list", other_list, 0x89e3421769f643deu},
-    {"bad_values", bad_values, 0xdfa046ea6b260e15u},
-    {"high_range", high_range, 0xbbce56d40d00f380u},
-    {"many_channels", many_channels, 0x53183c883d661d9cu},
-    {"outputs", outputs, 0x54d9458992fddeedu},
+    {"color", color, 0x18d18164f63205fbu},
+    {"gray", gray, 0xd95adef95bfc63e0u},
+    {"change", change, 0xf420ccd99ee56ee1u},
+    {"strict", strict, 0x04397f617d030a4cu},
+    {"weighted", weighted, 0xc8585aead58e75b0u},
+    {"noisy", noisy, 0xaeb593674e56ac87u},
+    {"until_quantized", until_quantized, 0x11951aaf9aaa1f6bu},
+    {"threshold", threshold, 0x2efdc18eb20d4ab7u},
+    {"capped", capped, 0x10610de2f3f8242du},
+    {"other_list", other_list, 0x241a6335b10ec17au},
+    {"bad_values", bad_values, 0x3a09c6808f079b03u},
+    {"high_range", high_range, 0xa77613a150b5a143u},
+    {"many_channels", many_channels, 0x80808aaae31fbf9fu},
+    {"outputs", outputs, 0x26d5530e7c168f93u},
 };
 
 }  // namespace

@@ -157,7 +157,8 @@ TEST_P(LeastSquaresFit, PixelSumsAreTheSharesOfTheSamples) {
   Fed block(refiner);
   oracle::Random random(2);
   // Of one axis: the part in a pixel of an interval around the point, as long as the distance to
-  // its neighbours times 0.85, but at most a pixel. What is beyond the block counts for no pixel.
+  // its neighbours times 0.85, but at most a pixel. What is beyond the block counts for no pixel,
+  // and of samples on its border half is left out.
   const auto share = [](double s, float spacing, int pixel) {
     const Real half = std::min(Real{1}, Real{0.85} * 8 * spacing) / 2;
     const Real begin = std::max(8 * Real{s} - half, Real(pixel));
@@ -174,7 +175,9 @@ TEST_P(LeastSquaresFit, PixelSumsAreTheSharesOfTheSamples) {
           Real expected = 0, magnitude = 0;
           for (std::size_t i = 0; i < block.samples(); ++i) {
             const SequencePosition& position = block.positions()[i];
-            const Real part = share(position.s, position.spacing, x) *
+            const auto inside = [](double s) { return s > 0 && s < 1; };
+            const Real counts = inside(position.s) && inside(position.t) ? 1 : Real{0.5};
+            const Real part = counts * share(position.s, position.spacing, x) *
                               share(position.t, position.spacing, y) *
                               static_cast<Real>(block.values(c)[i]);
             expected += part;
@@ -185,6 +188,42 @@ TEST_P(LeastSquaresFit, PixelSumsAreTheSharesOfTheSamples) {
               << "pixel " << x << ", " << y;
         }
       }
+    }
+  }
+}
+
+TEST_P(LeastSquaresFit, OwnSumsAndSpreadAreThoseOfTheSamplesInsidePixels) {
+  const LeastSquaresRefiner refiner(list_, 2);
+  Fed block(refiner);
+  oracle::Random random(5);
+  while (block.samples() < 600) {
+    block.add({random.value(), 100 * random.value()});
+    if (block.samples() % 97 != 0) continue;
+    for (std::size_t c = 0; c < 2; ++c) {
+      std::array<Real, max_terms> sums = {}, magnitudes = {};
+      std::array<int, max_terms> counts = {};
+      Real spread = 0;
+      for (std::size_t i = 0; i < block.samples(); ++i) {
+        const double x = 8 * block.positions()[i].s, y = 8 * block.positions()[i].t;
+        if (x == std::floor(x) || y == std::floor(y)) continue;
+        const auto pixel = static_cast<std::size_t>(8 * std::floor(y) + std::floor(x));
+        const auto value = static_cast<Real>(block.values(c)[i]);
+        if (counts[pixel] > 0) {
+          spread = std::max(spread, std::abs(value - sums[pixel] / counts[pixel]));
+        }
+        sums[pixel] += value;
+        magnitudes[pixel] += std::abs(value);
+        ++counts[pixel];
+      }
+      const auto own = refiner.own_sums(block.state(), c);
+      Real greatest = 0;
+      for (std::size_t pixel = 0; pixel < max_terms; ++pixel) {
+        ASSERT_NEAR(own[pixel], static_cast<double>(sums[pixel]),
+                    32 * float_rounding * static_cast<double>(magnitudes[pixel]));
+        greatest = std::max(greatest, magnitudes[pixel]);
+      }
+      ASSERT_NEAR(refiner.spread(block.state(), c), static_cast<double>(spread),
+                  32 * float_rounding * static_cast<double>(greatest));
     }
   }
 }
@@ -201,6 +240,8 @@ TEST_P(LeastSquaresFit, FitIsAllOfThis) {
       ASSERT_EQ(fit.coefficients, coefficients);
       ASSERT_EQ(fit.residual, refiner.residual(block.state(), block.samples(), c));
       ASSERT_EQ(fit.pixel_sums.data(), refiner.pixel_sums(block.state(), c).data());
+      ASSERT_EQ(fit.own_sums.data(), refiner.own_sums(block.state(), c).data());
+      ASSERT_EQ(fit.spread, refiner.spread(block.state(), c));
       if (n == 0) {
         ASSERT_EQ(coefficients, (std::array<float, max_terms>{}));
         ASSERT_EQ(fit.residual, 0);

@@ -47,8 +47,8 @@ struct Absorption {
              oracle::Random& random)
       : channels(channel_count),
         states(random_numbers<float>((channels + 1) * max_terms, random)),
-        sums(random_numbers<float>((channels + 1) * max_terms, random)),
-        residuals(random_numbers<float>(channels + 1, random)),
+        sums(random_numbers<float>((channels + 1) * 2 * max_terms, random)),
+        residuals(random_numbers<float>((channels + 1) * 2, random)),
         values(random_numbers<float>(channels + 1, random)),
         weights(random_numbers<float>(channels + 1, random)),
         known(with_values) {
@@ -68,6 +68,8 @@ struct Absorption {
       row.pixels[p] = static_cast<std::uint8_t>(16 * p + random.below(16));
       row.pixel_weights[p] = static_cast<float>(random.uniform(0, 1));
     }
+    if (random.below(4) > 0) row.own_pixel = static_cast<std::uint8_t>(random.below(max_terms));
+    if (random.below(4) > 0) row.own_share = static_cast<float>(random.uniform(0, 1));
     if (with_border) {
       border.step[terms] = 1;
       row.border = &border;

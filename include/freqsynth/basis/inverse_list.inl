@@ -47,19 +47,31 @@ inline TouchedPixels touched_pixels(double centre, double side) {
   return touched;
 }
 
+/// The pixel that a position lies in; none for one on the border between pixels.
+inline std::uint8_t own_pixel(const SequencePosition& position) {
+  const double x = position.s * block_size, y = position.t * block_size;
+  const double column = std::floor(x), row = std::floor(y);
+  if (x == column || y == row) return SampleRow::no_pixel;
+  return static_cast<std::uint8_t>(row * block_size + column);
+}
+
 /// A sample stands for the square around it that reaches to its neighbours, but for no more than
 /// the area of a pixel; each pixel of the block gets the share of the square that lies in it. What
-/// lies beyond the block's border falls to the neighbour's pixels, which get theirs there.
+/// lies beyond the block's border falls to the neighbour's pixels, which get theirs there; and of a
+/// sample on that border half is left out, because both blocks would be wrong where the border is
+/// an edge, too.
 inline void set_pixels(const SequencePosition& position, SampleRow& row) {
   // A little narrower than the distance to the neighbours, which is rounder than a square.
   constexpr double reach = 0.85;
   const double side = std::min(1.0, reach * double{position.spacing} * block_size);
   const TouchedPixels columns = touched_pixels(position.s * block_size, side);
   const TouchedPixels rows = touched_pixels(position.t * block_size, side);
+  const auto inside = [](double place) { return place > 0 && place < 1; };
+  const double counts = inside(position.s) && inside(position.t) ? 1 : 0.5;
   row.pixel_count = 0;
   for (std::size_t y = 0; y < rows.count; ++y) {
     for (std::size_t x = 0; x < columns.count; ++x) {
-      const double share = rows.shares[y] * columns.shares[x];
+      const double share = counts * rows.shares[y] * columns.shares[x];
       row.pixel_weights[row.pixel_count] = static_cast<float>(share);
       const std::size_t pixel = (rows.first + y) * block_size + columns.first + x;
       row.pixels[row.pixel_count++] = static_cast<std::uint8_t>(pixel);
@@ -93,6 +105,7 @@ struct InverseList::Builder {
 
   double samples_per_term;
   std::size_t most_terms;
+  std::array<std::uint32_t, max_terms> owned_samples = {};  // of each pixel
   std::mutex growing;
   SampleSequence sequence;
   NormalInverse normal;
@@ -116,6 +129,12 @@ FREQSYNTH_INLINE void InverseList::Builder::build(Chunk& chunk, std::size_t inde
 
   detail::SampleRow& row = chunk.rows[slot];
   detail::set_pixels(position, row);
+  row.own_pixel = detail::own_pixel(position);
+  if (row.own_pixel != detail::SampleRow::no_pixel) {
+    std::uint32_t& owned = owned_samples[row.own_pixel];
+    row.own_share = owned > 0 ? 1 / static_cast<float>(owned) : 0;
+    ++owned;
+  }
   row.terms = static_cast<std::uint32_t>(terms);
   double change = 0;
   for (std::size_t i = 0; i < max_terms; ++i) {

@@ -36,6 +36,12 @@ struct alignas(64) SampleRow {
   float pixel_weights[4] = {};        ///< share of the sample that each of its pixels gets
   std::uint8_t pixel_count = 0;  ///< pixels of the block that get a share of the sample, up to 4
   std::uint8_t pixels[4] = {};   ///< those pixels, row by row
+  std::uint8_t own_pixel =
+      no_pixel;         ///< the pixel that the sample lies in; none on pixels' borders
+  float own_share = 0;  ///< 1 / number of the earlier samples with the same own pixel, 0 for none
+
+  /// No pixel.
+  static constexpr std::uint8_t no_pixel = max_terms;
 };
 
 /// Absorbs one sample into the states of all channels of a block.
@@ -43,8 +49,11 @@ struct alignas(64) SampleRow {
 /// A state is 64 floats, aligned to 32 bytes: the amplitudes X of the terms in the fit and, beyond
 /// them, the right-hand sides Y (eq. 23) of the terms that are not yet in it.
 /// \param states    channels x 64 floats
-/// \param sums      channels x 64 floats: for each pixel the weighted sum of its samples
-/// \param residuals per channel: the sum of squared residuals of the fit, kept up to date
+/// \param sums      channels x 128 floats: for each pixel the weighted sum of its samples, and then
+///                  for each pixel the sum of those that are its own
+/// \param residuals channels x 2 floats, kept up to date: the sum of squared residuals of the fit,
+///                  and the greatest difference between a sample and the mean of the earlier ones
+///                  that its pixel owns
 /// \param values    one finite value per channel; null to absorb the block's own prediction instead
 /// \param weights   per channel: its weight in the result
 /// \return the weighted sum over channels of the mean squared change of the block's pixels

@@ -37,11 +37,21 @@ float absorb_sample(const SampleRow& row, float* states, float* sums, float* res
     for (i = rest_begin; i < max_terms; i += 8) {
       (absorbed * Float8::load(row.rest + i)).add_to(state + i);
     }
+    float* shares = sums + 2 * c * max_terms;
     for (std::size_t p = 0; p < row.pixel_count; ++p) {
-      sums[c * max_terms + row.pixels[p]] += absorbed * row.pixel_weights[p];
+      shares[row.pixels[p]] += absorbed * row.pixel_weights[p];
+    }
+    if (row.own_pixel != SampleRow::no_pixel) {
+      float& own = shares[max_terms + row.own_pixel];
+      if (row.own_share > 0) {
+        const float off = absorbed - own * row.own_share;
+        const float distance = off < 0 ? -off : off;
+        if (distance > residuals[2 * c + 1]) residuals[2 * c + 1] = distance;
+      }
+      own += absorbed;
     }
     float squared = row.change * innovation * innovation;
-    float residual = residuals[c] + row.residual * innovation * innovation;
+    float residual = residuals[2 * c] + row.residual * innovation * innovation;
     if (border != nullptr) {
       // Eq. 37 applied to Y: the new amplitude, and what it takes from the old ones.
       Float8 sum = {};
@@ -58,7 +68,7 @@ float absorb_sample(const SampleRow& row, float* states, float* sums, float* res
       residual -= border->delta * added * added;
       if (residual < 0) residual = 0;
     }
-    residuals[c] = residual;
+    residuals[2 * c] = residual;
     change += weights[c] * squared;
   }
   return change;

@@ -50,6 +50,68 @@ template <Refiner R>
   return image;
 }
 
+namespace detail {
+
+/// Finishes the blocks of an image.
+template <Refiner R>
+class ImageFinisher {
+ public:
+  ImageFinisher(const BlockGrid& grid, const BlockStore<R>& blocks, const SharedInverseList& list,
+                const FinishSettings& settings)
+      : grid_(grid), blocks_(blocks), list_(list), settings_(settings) {
+    order_.resize(blocks.size());
+    std::iota(order_.begin(), order_.end(), 0u);
+    std::stable_sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
+      return blocks.samples(a) < blocks.samples(b);
+    });
+  }
+
+  /// Calls visit(block, channel, fit, finisher) for all of them.
+  template <class Visit>
+  void visit(Visit&& visit) const {
+    PixelFinisher finisher(list_, settings_);
+    std::vector<Gap> gaps;
+    for (const std::uint32_t block : order_) {
+      finisher.advance(blocks_.samples(block));
+      for (std::size_t c = 0; c < channels(); ++c) {
+        visit(block, c, blocks_.fit_without_gaps(block, c, gaps), finisher);
+      }
+    }
+  }
+
+  /// Finds how well samples agree within pixels.
+  void compare() {
+    agreements_.resize(blocks_.size() * channels());
+    visit([&](std::uint32_t block, std::size_t c, const BlockFit& fit,
+              const PixelFinisher& finisher) {
+      agreements_[block * channels() + c] = finisher.agreement(fit);
+    });
+  }
+  /// Whether the pixels of a block and of those around it are constant.
+  [[nodiscard]] bool constant_pixels(std::uint32_t block, std::size_t channel) const {
+    const std::size_t x = grid_.column(block), y = grid_.row(block);
+    PixelAgreement around;
+    for (std::size_t v = y > 0 ? y - 1 : 0; v < std::min(y + 2, grid_.blocks_y); ++v) {
+      for (std::size_t u = x > 0 ? x - 1 : 0; u < std::min(x + 2, grid_.blocks_x); ++u) {
+        around.join(agreements_[(v * grid_.blocks_x + u) * channels() + channel]);
+      }
+    }
+    return around.holds();
+  }
+
+ private:
+  [[nodiscard]] std::size_t channels() const { return blocks_.refiner().channels(); }
+
+  const BlockGrid& grid_;
+  const BlockStore<R>& blocks_;
+  const SharedInverseList& list_;
+  const FinishSettings& settings_;
+  std::vector<std::uint32_t> order_;  // of the blocks, those with fewer samples first
+  std::vector<PixelAgreement> agreements_;
+};
+
+}  // namespace detail
+
 /// Finished pixels (CoefficientMeaning::pixel_average).
 /// \param list  the one that the blocks were refined with
 /// \throws std::invalid_argument when a setting is out of range.
@@ -59,23 +121,17 @@ template <Refiner R>
                                             const FinishSettings& settings) {
   const std::size_t channels = blocks.refiner().channels();
   FrequencyImage image(grid.width, grid.height, channels, CoefficientMeaning::pixel_average);
-  PixelFinisher finisher(list, settings);
-  std::vector<Gap> gaps;
-  std::vector<std::uint32_t> order(blocks.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return blocks.samples(a) < blocks.samples(b);
-  });
-  for (const std::uint32_t block : order) {
-    const std::size_t x = grid.column(block);
-    const std::size_t y = grid.row(block);
-    image.samples(x, y) = blocks.samples(block);
-    finisher.advance(blocks.samples(block));
-    for (std::size_t c = 0; c < channels; ++c) {
-      finisher.finish(blocks.fit_without_gaps(block, c, gaps), image.coefficients(x, y, c));
-      detail::to_host_unit(image.coefficients(x, y, c), blocks.exponent(c));
-    }
-  }
+  detail::ImageFinisher<R> all(grid, blocks, list, settings);
+  if (settings.residuals) all.compare();
+  all.visit(
+      [&](std::uint32_t block, std::size_t c, const BlockFit& fit, const PixelFinisher& finisher) {
+        const std::size_t x = grid.column(block);
+        const std::size_t y = grid.row(block);
+        image.samples(x, y) = blocks.samples(block);
+        const bool constant = settings.residuals && all.constant_pixels(block, c);
+        finisher.finish(fit, image.coefficients(x, y, c), constant);
+        detail::to_host_unit(image.coefficients(x, y, c), blocks.exponent(c));
+      });
   return image;
 }
 

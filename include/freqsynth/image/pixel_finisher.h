@@ -10,17 +10,20 @@
 ///
 /// The fit itself is filtered by what it says of itself, too: a coefficient that is hardly larger
 /// than its expected error is mostly noise. And a fit that rings beside an edge is held within what
-/// the samples around have shown.
+/// the samples around have shown; where these show a picture that is constant within pixels, each
+/// pixel is what its own samples say.
 #pragma once
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 #include "freqsynth/basis/aligned.h"
 #include "freqsynth/basis/config.h"
 #include "freqsynth/basis/shared_list.h"
 #include "freqsynth/image/butterworth.h"
+#include "freqsynth/image/pixel_agreement.h"
 #include "freqsynth/refine/refiner.h"
 
 namespace freqsynth {
@@ -68,15 +71,21 @@ class FREQSYNTH_API PixelFinisher {
   /// Goes on to blocks with `samples` samples; not less than before.
   void advance(std::size_t samples);
 
+  /// How well the samples of a block agree within its pixels; not at all if that is not known.
+  [[nodiscard]] PixelAgreement agreement(const BlockFit& fit) const;
+
   /// Coefficients of finished pixels (CoefficientMeaning::pixel_average).
-  void finish(const BlockFit& fit, std::span<float, max_terms> out) const;
+  /// \param constant_pixels  the picture is constant within each pixel, as agreement() of this block
+  ///                         and of those around says
+  void finish(const BlockFit& fit, std::span<float, max_terms> out,
+              bool constant_pixels = false) const;
 
  private:
   void finish_without_gaps(const BlockFit& fit, std::span<float, max_terms> out) const;
   void filter(const BlockFit& fit, std::span<float, max_terms> filtered) const;
   double measured_doubt(const BlockFit& fit, std::span<const float, max_terms> filtered,
                         const detail::AlignedBlock& means) const;
-  void bound(const BlockFit& fit, std::span<float, max_terms> pixels) const;
+  void bound(const BlockFit& fit, std::span<float, max_terms> pixels, bool constant_pixels) const;
 
   SharedInverseList list_;
   FinishSettings settings_;
@@ -84,7 +93,8 @@ class FREQSYNTH_API PixelFinisher {
   std::array<float, max_terms> box_;      // mean over a pixel of each term, relative to its centre
   std::array<float, max_terms> filter_;   // Butterworth factors
   std::array<float, max_terms> weights_;  // samples of each pixel
-  detail::AlignedBlock inverse_weights_;  // 0 without samples
+  std::array<std::uint32_t, max_terms> owned_ = {};  // samples that lie in each pixel
+  detail::AlignedBlock inverse_weights_;             // 0 without samples
   // [pixel][row-major term]: weighted sum of the term over the pixel's samples
   detail::AlignedVector<float> sums_;
 };

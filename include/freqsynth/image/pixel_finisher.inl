@@ -40,6 +40,7 @@ FREQSYNTH_INLINE void PixelFinisher::advance(std::size_t samples) {
   if (samples == samples_) return;
   for (; samples_ < samples; ++samples_) {
     const detail::SampleRow& row = list_->row(samples_);
+    if (row.own_pixel != detail::SampleRow::no_pixel) ++owned_[row.own_pixel];
     for (std::size_t p = 0; p < row.pixel_count; ++p) {
       const std::size_t pixel = row.pixels[p];
       weights_[pixel] += row.pixel_weights[p];
@@ -96,14 +97,33 @@ FREQSYNTH_INLINE double PixelFinisher::measured_doubt(const BlockFit& fit,
   return means_variance > 0 ? std::clamp(within / means_variance, least, most) : most;
 }
 
+FREQSYNTH_INLINE PixelAgreement PixelFinisher::agreement(const BlockFit& fit) const {
+  if (fit.own_sums.empty() || !fit.gaps.empty()) return PixelAgreement::none();
+  PixelAgreement agreement;
+  agreement.spread = fit.spread;
+  for (std::size_t pixel = 0; pixel < max_terms; ++pixel) {
+    if (owned_[pixel] == 0) continue;
+    const float mean = fit.own_sums[pixel] / static_cast<float>(owned_[pixel]);
+    agreement.low = std::min(agreement.low, mean);
+    agreement.high = std::max(agreement.high, mean);
+    agreement.pairs += owned_[pixel] > 1 ? 1 : 0;
+  }
+  return agreement;
+}
+
 /// Holds pixels within what the samples around have shown.
-FREQSYNTH_INLINE void PixelFinisher::bound(const BlockFit& fit,
-                                           std::span<float, max_terms> pixels) const {
+FREQSYNTH_INLINE void PixelFinisher::bound(const BlockFit& fit, std::span<float, max_terms> pixels,
+                                           bool constant_pixels) const {
   constexpr int side = block_size;
   constexpr int enough = 4;
   std::array<float, max_terms> means;
+  std::array<bool, max_terms> sampled;
   for (std::size_t pixel = 0; pixel < max_terms; ++pixel) {
+    sampled[pixel] = constant_pixels ? owned_[pixel] > 0 : weights_[pixel] > 0;
     means[pixel] = fit.pixel_sums[pixel] * inverse_weights_[pixel];
+    if (!constant_pixels || !sampled[pixel]) continue;
+    means[pixel] = fit.own_sums[pixel] / static_cast<float>(owned_[pixel]);
+    pixels[pixel] = std::clamp(pixels[pixel], means[pixel] - fit.spread, means[pixel] + fit.spread);
   }
   struct Range {
     float low = 0, high = 0;
@@ -117,7 +137,7 @@ FREQSYNTH_INLINE void PixelFinisher::bound(const BlockFit& fit,
     for (int y = std::max(top, 0); y <= std::min(bottom, side - 1); ++y) {
       for (int x = std::max(left, 0); x <= std::min(right, side - 1); ++x) {
         const auto pixel = static_cast<std::size_t>(y * side + x);
-        if (weights_[pixel] > 0) values[static_cast<std::size_t>(range.known++)] = means[pixel];
+        if (sampled[pixel]) values[static_cast<std::size_t>(range.known++)] = means[pixel];
       }
     }
     if (range.known == 0) return range;
@@ -174,8 +194,8 @@ FREQSYNTH_INLINE void PixelFinisher::finish_without_gaps(const BlockFit& fit,
   others.finish({fit.coefficients, pixel_sums, fit.residual}, out);
 }
 
-FREQSYNTH_INLINE void PixelFinisher::finish(const BlockFit& fit,
-                                            std::span<float, max_terms> out) const {
+FREQSYNTH_INLINE void PixelFinisher::finish(const BlockFit& fit, std::span<float, max_terms> out,
+                                            bool constant_pixels) const {
   if (!fit.gaps.empty()) return finish_without_gaps(fit, out);
   std::array<float, max_terms> filtered;
   filter(fit, filtered);
@@ -199,7 +219,7 @@ FREQSYNTH_INLINE void PixelFinisher::finish(const BlockFit& fit,
     if (weights_[pixel] == 0) continue;
     pixels[pixel] += means[pixel] * weights_[pixel] / (weights_[pixel] + doubt);
   }
-  if (detail::is_finite(settings_.slack)) bound(fit, pixels);
+  if (detail::is_finite(settings_.slack)) bound(fit, pixels, constant_pixels);
   forward_dct(pixels, out);
 }
 

@@ -23,8 +23,9 @@ namespace freqsynth {
 /// Refines the states of blocks; the states themselves belong to the caller.
 ///
 /// A state is 64 floats per channel: the amplitudes X = G(u, v) (eq. 24) of the T terms in the fit,
-/// and the right-hand sides Y (eq. 23) of the others; then 64 sums of samples per channel, one for
-/// each pixel; then per channel the sum of squared residuals (eq. 11).
+/// and the right-hand sides Y (eq. 23) of the others; then 128 sums of samples per channel, for
+/// each pixel by area and for each pixel of those that lie in it; then per channel the sum of
+/// squared residuals (eq. 11) and the spread of the samples within pixels, see BlockFit.
 class FREQSYNTH_API LeastSquaresRefiner {
  public:
   /// \param weights  weight of each channel in what absorb() returns; empty: 1 / channels
@@ -45,7 +46,7 @@ class FREQSYNTH_API LeastSquaresRefiner {
   void weigh(std::span<const float> weights) { weights_.assign(weights.begin(), weights.end()); }
   /// Floats in the state of a block. States are aligned to 32 bytes.
   [[nodiscard]] std::size_t state_size() const {
-    return 2 * channels_ * max_terms + (channels_ + 15) / 16 * 16;
+    return 3 * channels_ * max_terms + (2 * channels_ + 15) / 16 * 16;
   }
 
   /// Puts a state to "no sample yet".
@@ -70,7 +71,7 @@ class FREQSYNTH_API LeastSquaresRefiner {
   [[nodiscard]] float freedom(std::size_t samples) const;
   /// Sum of the squared differences (eq. 11) between the samples of a channel and their fit.
   [[nodiscard]] float squared_residuals(const float* state, std::size_t channel) const {
-    return state[2 * channels_ * max_terms + channel];
+    return state[3 * channels_ * max_terms + 2 * channel];
   }
   /// squared_residuals() over freedom(): weighted over the channels, and of one channel.
   [[nodiscard]] float residual(const float* state, std::size_t samples) const;
@@ -91,11 +92,20 @@ class FREQSYNTH_API LeastSquaresRefiner {
   void coefficients(const float* state, std::size_t samples, std::size_t channel,
                     std::span<float, max_terms> out) const;
 
-  /// Sums of a channel's samples in each of the 64 pixels of the block, row by row. A sample on the
-  /// border between pixels counts half, or a quarter, for each.
+  /// Sums of a channel's samples in each of the 64 pixels of the block, row by row, by area. See
+  /// BlockFit, as for the next two.
   [[nodiscard]] std::span<const float, max_terms> pixel_sums(const float* state,
                                                              std::size_t channel) const {
-    return std::span<const float, max_terms>(state + (channels_ + channel) * max_terms, max_terms);
+    return std::span<const float, max_terms>(sums(state, channel), max_terms);
+  }
+  /// Sums of those that lie in each pixel.
+  [[nodiscard]] std::span<const float, max_terms> own_sums(const float* state,
+                                                           std::size_t channel) const {
+    return std::span<const float, max_terms>(sums(state, channel) + max_terms, max_terms);
+  }
+  /// Greatest difference between a sample and the mean of the earlier ones in the same pixel.
+  [[nodiscard]] float spread(const float* state, std::size_t channel) const {
+    return state[3 * channels_ * max_terms + 2 * channel + 1];
   }
 
   /// What takes the place of an unusable value of a channel in sample `index`: the prediction of
@@ -113,6 +123,9 @@ class FREQSYNTH_API LeastSquaresRefiner {
 
  private:
   float absorb_channelwise(float* state, std::size_t index, const float* values) const;
+  [[nodiscard]] const float* sums(const float* state, std::size_t channel) const {
+    return state + (channels_ + 2 * channel) * max_terms;
+  }
   void start(float* state, float* sums, std::size_t index, float value) const;
 
   SharedInverseList owner_;
@@ -131,7 +144,7 @@ inline float LeastSquaresRefiner::absorb(float* state, std::size_t index,
     }
   }
   return detail::absorb_sample(list_->row(index), state, state + channels_ * max_terms,
-                               state + 2 * channels_ * max_terms, values, weights_.data(),
+                               state + 3 * channels_ * max_terms, values, weights_.data(),
                                channels_);
 }
 
@@ -143,9 +156,10 @@ inline void LeastSquaresRefiner::prefetch(const float* state, std::size_t index)
     __builtin_prefetch(state + at, 1);
   }
   for (std::size_t c = 0; c < channels_; ++c) {
-    __builtin_prefetch(state + (channels_ + c) * max_terms + pixel, 1);
+    __builtin_prefetch(sums(state, c) + pixel, 1);
+    __builtin_prefetch(sums(state, c) + max_terms + pixel, 1);
   }
-  __builtin_prefetch(state + 2 * channels_ * max_terms, 1);
+  __builtin_prefetch(state + 3 * channels_ * max_terms, 1);
 #else
   static_cast<void>(state + index);
 #endif

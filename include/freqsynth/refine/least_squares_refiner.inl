@@ -115,14 +115,14 @@ FREQSYNTH_INLINE void LeastSquaresRefiner::reset(float* state) const {
 
 FREQSYNTH_INLINE void LeastSquaresRefiner::rescale(float* state, std::size_t channel,
                                                    int exponent) const {
-  float* own = state + channel * max_terms;
-  float* sums = own + channels_ * max_terms;
-  for (std::size_t i = 0; i < max_terms; ++i) {
-    own[i] = std::ldexp(own[i], exponent);
-    sums[i] = std::ldexp(sums[i], exponent);
-  }
-  float& squares = state[2 * channels_ * max_terms + channel];
-  squares = std::ldexp(squares, 2 * exponent);
+  const auto scale = [exponent](float* values, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) values[i] = std::ldexp(values[i], exponent);
+  };
+  scale(state + channel * max_terms, max_terms);
+  scale(state + (channels_ + 2 * channel) * max_terms, 2 * max_terms);
+  float* squares = state + 3 * channels_ * max_terms + 2 * channel;
+  squares[0] = std::ldexp(squares[0], 2 * exponent);
+  squares[1] = std::ldexp(squares[1], exponent);
 }
 
 FREQSYNTH_INLINE float LeastSquaresRefiner::absorb_channelwise(float* state, std::size_t index,
@@ -130,13 +130,14 @@ FREQSYNTH_INLINE float LeastSquaresRefiner::absorb_channelwise(float* state, std
   float change = 0;
   for (std::size_t c = 0; c < channels_; ++c) {
     float* own = state + c * max_terms;
+    float* sums = state + (channels_ + 2 * c) * max_terms;
     const bool usable = is_usable_sample(values[c]);
     if (!detail::is_nan(own[0])) {
-      change += detail::absorb_sample(list_->row(index), own, own + channels_ * max_terms,
-                                      state + 2 * channels_ * max_terms + c,
+      change += detail::absorb_sample(list_->row(index), own, sums,
+                                      state + 3 * channels_ * max_terms + 2 * c,
                                       usable ? values + c : nullptr, weights_.data() + c, 1);
     } else if (usable) {
-      start(own, own + channels_ * max_terms, index, values[c]);
+      start(own, sums, index, values[c]);
     }
   }
   return change;
@@ -153,6 +154,7 @@ FREQSYNTH_INLINE void LeastSquaresRefiner::start(float* state, float* sums, std:
     for (std::size_t p = 0; p < row.pixel_count; ++p) {
       sums[row.pixels[p]] += value * row.pixel_weights[p];
     }
+    if (row.own_pixel != detail::SampleRow::no_pixel) sums[max_terms + row.own_pixel] += value;
   }
 }
 
@@ -212,7 +214,12 @@ FREQSYNTH_INLINE BlockFit LeastSquaresRefiner::fit(const float* state, std::size
 
 FREQSYNTH_INLINE BlockFit LeastSquaresRefiner::fit(const float* state, std::size_t samples,
                                                    std::size_t channel) const {
-  BlockFit fit{{}, pixel_sums(state, channel), residual(state, samples, channel)};
+  BlockFit fit{.coefficients = {},
+               .pixel_sums = pixel_sums(state, channel),
+               .residual = residual(state, samples, channel),
+               .gaps = {},
+               .own_sums = own_sums(state, channel),
+               .spread = spread(state, channel)};
   coefficients(state, samples, channel, fit.coefficients);
   return fit;
 }

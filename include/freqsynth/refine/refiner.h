@@ -34,13 +34,18 @@ struct Gap {
 struct BlockFit {
   /// F (eqs. 1, 2) in zig-zag order; zeros when the channel had no usable value.
   std::array<float, max_terms> coefficients;
-  /// Sums of the channel's samples in each of the 64 pixels, row by row; a sample on the border
-  /// between pixels counts half, or a quarter, for each.
+  /// Sums of the channel's samples in each of the 64 pixels, row by row; a sample counts for the
+  /// pixels around it by area, see detail::SampleRow::pixel_weights.
   std::span<const float, max_terms> pixel_sums;
   float residual = 0;  ///< variance of what the fit leaves over
   /// Samples that are in the sums with a value that is none; the fit and the residual do without
   /// them.
   std::span<const Gap> gaps = {};
+  /// The same of the samples that lie in the pixel, those on pixels' borders left out: 64 numbers,
+  /// or none, when that is not known.
+  std::span<const float> own_sums = {};
+  /// Greatest difference between a sample and the mean of the earlier ones in the same pixel.
+  float spread = 0;
 };
 
 template <class R>

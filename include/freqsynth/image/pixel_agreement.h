@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+/// \file
+/// Pictures that are constant within each pixel: those of edges that lie on the borders of pixels,
+/// as of rectangles, of text at whole positions, of checkers and pixel art.
+///
+/// There the mean of a pixel's own samples is exact, and whatever else is known of the block can
+/// only spoil it. The samples tell: all that lie in one pixel are equal, and so are those in the
+/// pixels around. A slanted edge soon crosses a pixel with two samples.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+
+namespace freqsynth {
+
+/// How well the samples within pixels agree, in one block or in several.
+struct PixelAgreement {
+  /// Greatest difference between a sample and the mean of the earlier ones in the same pixel.
+  float spread = 0;
+  /// Least and greatest mean of the samples in a pixel.
+  float low = std::numeric_limits<float>::max();
+  float high = std::numeric_limits<float>::lowest();
+  std::uint32_t pairs = 0;  ///< pixels with two samples or more
+
+  /// Nothing agrees.
+  [[nodiscard]] static PixelAgreement none() {
+    PixelAgreement agreement;
+    agreement.spread = std::numeric_limits<float>::infinity();
+    return agreement;
+  }
+
+  /// Of both together.
+  void join(const PixelAgreement& other) {
+    spread = std::max(spread, other.spread);
+    low = std::min(low, other.low);
+    high = std::max(high, other.high);
+    pairs += other.pairs;
+  }
+
+  /// Whether the picture can be taken to be constant within each pixel.
+  [[nodiscard]] bool holds() const {
+    constexpr std::uint32_t enough = 16;
+    constexpr float visible = 0.004f, rounding = 1e-5f;
+    if (pairs < enough) return false;
+    return spread <= visible * (high - low) + rounding * std::max(high, -low);
+  }
+};
+
+}  // namespace freqsynth
