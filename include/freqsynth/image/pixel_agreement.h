@@ -18,8 +18,9 @@ namespace freqsynth {
 struct PixelAgreement {
   /// Greatest difference between a sample and the mean of the earlier ones in the same pixel.
   float spread = 0;
-  /// Least and greatest mean of the samples in a pixel.
+  /// Least mean of the samples in a pixel.
   float low = std::numeric_limits<float>::max();
+  /// Greatest mean of the samples in a pixel.
   float high = std::numeric_limits<float>::lowest();
   std::uint32_t pairs = 0;  ///< pixels with two samples or more
 
