@@ -36,8 +36,8 @@ struct alignas(64) SampleRow {
   float pixel_weights[4] = {};        ///< share of the sample that each of its pixels gets
   std::uint8_t pixel_count = 0;  ///< pixels of the block that get a share of the sample, up to 4
   std::uint8_t pixels[4] = {};   ///< those pixels, row by row
-  std::uint8_t own_pixel =
-      no_pixel;         ///< the pixel that the sample lies in; none on pixels' borders
+  /// The pixel that the sample lies in; none on the border between pixels.
+  std::uint8_t own_pixel = no_pixel;
   float own_share = 0;  ///< 1 / number of the earlier samples with the same own pixel, 0 for none
 
   /// No pixel.

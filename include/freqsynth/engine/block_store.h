@@ -79,6 +79,10 @@ class BlockStore {
   [[nodiscard]] BlockFit fit(std::size_t block, std::size_t channel) const {
     return refiner_.fit(state(block), counts_[block], channel);
   }
+  /// Whether some samples of a block had no usable value in this channel.
+  [[nodiscard]] bool has_gaps(std::size_t block, std::size_t channel) const {
+    return gaps_.any(block) && !gaps_.of(block, channel).empty();
+  }
   /// The fit without the samples that had no usable value in this channel. It refers to `gaps`,
   /// which receives them.
   [[nodiscard]] BlockFit fit_without_gaps(std::size_t block, std::size_t channel,

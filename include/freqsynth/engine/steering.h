@@ -64,8 +64,7 @@ class Steering {
   /// Factor on the priority of a block that has so many samples per pixel. Evenly spread samples of
   /// a function without noise tell more than independent ones: where residuals are large, less is
   /// left to gain than they say, and the blocks that have the largest, at edges between bright and
-  /// dark, would take what is seen elsewhere. Of the powers 0, 1/2, 1 and 3/2 of the rate the last
-  /// two were best, on pictures with and without dark parts.
+  /// dark, would take what is seen elsewhere.
   [[nodiscard]] float gain(float samples_per_pixel) const {
     return noisy_ || samples_per_pixel <= 1 ? 1 : 1 / samples_per_pixel;
   }

@@ -52,13 +52,12 @@ template <Refiner R>
 
 namespace detail {
 
-/// Finishes the blocks of an image.
+/// Which blocks of an image are constant within their pixels.
 template <Refiner R>
-class ImageFinisher {
+class ImageAgreement {
  public:
-  ImageFinisher(const BlockGrid& grid, const BlockStore<R>& blocks, const SharedInverseList& list,
-                const FinishSettings& settings)
-      : grid_(grid), blocks_(blocks), list_(list), settings_(settings) {
+  ImageAgreement(const BlockGrid& grid, const BlockStore<R>& blocks, const SharedInverseList& list)
+      : grid_(grid), blocks_(blocks), list_(list) {
     order_.resize(blocks.size());
     std::iota(order_.begin(), order_.end(), 0u);
     std::stable_sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -66,26 +65,22 @@ class ImageFinisher {
     });
   }
 
-  /// Calls visit(block, channel, fit, finisher) for all of them.
-  template <class Visit>
-  void visit(Visit&& visit) const {
-    PixelFinisher finisher(list_, settings_);
-    std::vector<Gap> gaps;
-    for (const std::uint32_t block : order_) {
-      finisher.advance(blocks_.samples(block));
-      for (std::size_t c = 0; c < channels(); ++c) {
-        visit(block, c, blocks_.fit_without_gaps(block, c, gaps), finisher);
-      }
-    }
-  }
+  /// The blocks, those with fewer samples first.
+  [[nodiscard]] const std::vector<std::uint32_t>& order() const { return order_; }
 
   /// Finds how well samples agree within pixels.
   void compare() {
     agreements_.resize(blocks_.size() * channels());
-    visit([&](std::uint32_t block, std::size_t c, const BlockFit& fit,
-              const PixelFinisher& finisher) {
-      agreements_[block * channels() + c] = finisher.agreement(fit);
-    });
+    OwnedSamples owned;
+    std::size_t samples = 0;
+    for (const std::uint32_t block : order_) {
+      for (; samples < blocks_.samples(block); ++samples) owned.add(list_->row(samples));
+      for (std::size_t c = 0; c < channels(); ++c) {
+        agreements_[block * channels() + c] = blocks_.has_gaps(block, c)
+                                                  ? PixelAgreement::none()
+                                                  : owned.agreement(blocks_.fit(block, c));
+      }
+    }
   }
   /// Whether the pixels of a block and of those around it are constant.
   [[nodiscard]] bool constant_pixels(std::uint32_t block, std::size_t channel) const {
@@ -105,7 +100,6 @@ class ImageFinisher {
   const BlockGrid& grid_;
   const BlockStore<R>& blocks_;
   const SharedInverseList& list_;
-  const FinishSettings& settings_;
   std::vector<std::uint32_t> order_;  // of the blocks, those with fewer samples first
   std::vector<PixelAgreement> agreements_;
 };
@@ -121,17 +115,22 @@ template <Refiner R>
                                             const FinishSettings& settings) {
   const std::size_t channels = blocks.refiner().channels();
   FrequencyImage image(grid.width, grid.height, channels, CoefficientMeaning::pixel_average);
-  detail::ImageFinisher<R> all(grid, blocks, list, settings);
-  if (settings.residuals) all.compare();
-  all.visit(
-      [&](std::uint32_t block, std::size_t c, const BlockFit& fit, const PixelFinisher& finisher) {
-        const std::size_t x = grid.column(block);
-        const std::size_t y = grid.row(block);
-        image.samples(x, y) = blocks.samples(block);
-        const bool constant = settings.residuals && all.constant_pixels(block, c);
-        finisher.finish(fit, image.coefficients(x, y, c), constant);
-        detail::to_host_unit(image.coefficients(x, y, c), blocks.exponent(c));
-      });
+  detail::ImageAgreement<R> agreement(grid, blocks, list);
+  if (settings.residuals) agreement.compare();
+  PixelFinisher finisher(list, settings);
+  std::vector<Gap> gaps;
+  for (const std::uint32_t block : agreement.order()) {
+    const std::size_t x = grid.column(block);
+    const std::size_t y = grid.row(block);
+    image.samples(x, y) = blocks.samples(block);
+    finisher.advance(blocks.samples(block));
+    for (std::size_t c = 0; c < channels; ++c) {
+      const bool constant = settings.residuals && agreement.constant_pixels(block, c);
+      finisher.finish(blocks.fit_without_gaps(block, c, gaps), image.coefficients(x, y, c),
+                      constant);
+      detail::to_host_unit(image.coefficients(x, y, c), blocks.exponent(c));
+    }
+  }
   return image;
 }
 

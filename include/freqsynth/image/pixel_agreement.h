@@ -9,8 +9,15 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
+
+#include "freqsynth/basis/config.h"
+#include "freqsynth/basis/kernels.h"
+#include "freqsynth/refine/refiner.h"
 
 namespace freqsynth {
 
@@ -46,6 +53,39 @@ struct PixelAgreement {
     if (pairs < enough) return false;
     return spread <= visible * (high - low) + rounding * std::max(high, -low);
   }
+};
+
+/// How many samples lie in each pixel of a block.
+class OwnedSamples {
+ public:
+  /// One more sample of the sequence.
+  void add(const detail::SampleRow& row) {
+    if (row.own_pixel != detail::SampleRow::no_pixel) ++counts_[row.own_pixel];
+  }
+
+  /// Whether a pixel has any.
+  [[nodiscard]] bool any(std::size_t pixel) const { return counts_[pixel] > 0; }
+  /// The mean of those in a pixel that has some, of their sums in each pixel (BlockFit::own_sums).
+  [[nodiscard]] float mean(std::span<const float> sums, std::size_t pixel) const {
+    return sums[pixel] / static_cast<float>(counts_[pixel]);
+  }
+  /// How well those of a block agree within its pixels; not at all where that is not known.
+  /// \param fit  of all samples, none of which was a gap
+  [[nodiscard]] PixelAgreement agreement(const BlockFit& fit) const {
+    if (fit.own_sums.empty()) return PixelAgreement::none();
+    PixelAgreement agreement;
+    agreement.spread = fit.spread;
+    for (std::size_t pixel = 0; pixel < max_terms; ++pixel) {
+      if (!any(pixel)) continue;
+      agreement.low = std::min(agreement.low, mean(fit.own_sums, pixel));
+      agreement.high = std::max(agreement.high, mean(fit.own_sums, pixel));
+      agreement.pairs += counts_[pixel] > 1 ? 1 : 0;
+    }
+    return agreement;
+  }
+
+ private:
+  std::array<std::uint32_t, max_terms> counts_ = {};
 };
 
 }  // namespace freqsynth

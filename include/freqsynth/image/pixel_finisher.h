@@ -16,7 +16,6 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <span>
 
 #include "freqsynth/basis/aligned.h"
@@ -71,12 +70,9 @@ class FREQSYNTH_API PixelFinisher {
   /// Goes on to blocks with `samples` samples; not less than before.
   void advance(std::size_t samples);
 
-  /// How well the samples of a block agree within its pixels; not at all if that is not known.
-  [[nodiscard]] PixelAgreement agreement(const BlockFit& fit) const;
-
   /// Coefficients of finished pixels (CoefficientMeaning::pixel_average).
-  /// \param constant_pixels  the picture is constant within each pixel, as agreement() of this block
-  ///                         and of those around says
+  /// \param constant_pixels  the picture is constant within each pixel, as PixelAgreement of this
+  ///                         block and of those around says
   void finish(const BlockFit& fit, std::span<float, max_terms> out,
               bool constant_pixels = false) const;
 
@@ -93,8 +89,8 @@ class FREQSYNTH_API PixelFinisher {
   std::array<float, max_terms> box_;      // mean over a pixel of each term, relative to its centre
   std::array<float, max_terms> filter_;   // Butterworth factors
   std::array<float, max_terms> weights_;  // samples of each pixel
-  std::array<std::uint32_t, max_terms> owned_ = {};  // samples that lie in each pixel
-  detail::AlignedBlock inverse_weights_;             // 0 without samples
+  OwnedSamples owned_;
+  detail::AlignedBlock inverse_weights_;  // 0 without samples
   // [pixel][row-major term]: weighted sum of the term over the pixel's samples
   detail::AlignedVector<float> sums_;
 };

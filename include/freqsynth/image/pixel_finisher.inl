@@ -40,7 +40,7 @@ FREQSYNTH_INLINE void PixelFinisher::advance(std::size_t samples) {
   if (samples == samples_) return;
   for (; samples_ < samples; ++samples_) {
     const detail::SampleRow& row = list_->row(samples_);
-    if (row.own_pixel != detail::SampleRow::no_pixel) ++owned_[row.own_pixel];
+    owned_.add(row);
     for (std::size_t p = 0; p < row.pixel_count; ++p) {
       const std::size_t pixel = row.pixels[p];
       weights_[pixel] += row.pixel_weights[p];
@@ -97,20 +97,6 @@ FREQSYNTH_INLINE double PixelFinisher::measured_doubt(const BlockFit& fit,
   return means_variance > 0 ? std::clamp(within / means_variance, least, most) : most;
 }
 
-FREQSYNTH_INLINE PixelAgreement PixelFinisher::agreement(const BlockFit& fit) const {
-  if (fit.own_sums.empty() || !fit.gaps.empty()) return PixelAgreement::none();
-  PixelAgreement agreement;
-  agreement.spread = fit.spread;
-  for (std::size_t pixel = 0; pixel < max_terms; ++pixel) {
-    if (owned_[pixel] == 0) continue;
-    const float mean = fit.own_sums[pixel] / static_cast<float>(owned_[pixel]);
-    agreement.low = std::min(agreement.low, mean);
-    agreement.high = std::max(agreement.high, mean);
-    agreement.pairs += owned_[pixel] > 1 ? 1 : 0;
-  }
-  return agreement;
-}
-
 /// Holds pixels within what the samples around have shown.
 FREQSYNTH_INLINE void PixelFinisher::bound(const BlockFit& fit, std::span<float, max_terms> pixels,
                                            bool constant_pixels) const {
@@ -119,10 +105,10 @@ FREQSYNTH_INLINE void PixelFinisher::bound(const BlockFit& fit, std::span<float,
   std::array<float, max_terms> means;
   std::array<bool, max_terms> sampled;
   for (std::size_t pixel = 0; pixel < max_terms; ++pixel) {
-    sampled[pixel] = constant_pixels ? owned_[pixel] > 0 : weights_[pixel] > 0;
+    sampled[pixel] = constant_pixels ? owned_.any(pixel) : weights_[pixel] > 0;
     means[pixel] = fit.pixel_sums[pixel] * inverse_weights_[pixel];
     if (!constant_pixels || !sampled[pixel]) continue;
-    means[pixel] = fit.own_sums[pixel] / static_cast<float>(owned_[pixel]);
+    means[pixel] = owned_.mean(fit.own_sums, pixel);
     pixels[pixel] = std::clamp(pixels[pixel], means[pixel] - fit.spread, means[pixel] + fit.spread);
   }
   struct Range {
