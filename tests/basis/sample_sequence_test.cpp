@@ -198,6 +198,24 @@ TEST_P(Sequence, SpacingIsTheDistanceToTheNearestEarlierPosition) {
   }
 }
 
+TEST(SampleSequence, IsEvenAfterWholeLevelsAndAfterTheCentresOfOne) {
+  EXPECT_EQ(SampleSequence::even_size(0), 1u);
+  for (std::size_t level = 0; level < 8; ++level) {
+    const std::size_t whole = SampleSequence::even_size(2 * level + 1);
+    const std::size_t centred = SampleSequence::even_size(2 * level + 2);
+    EXPECT_EQ(whole, lattice_size(level));
+    // From the one to the other the coordinates are odd multiples of half a node, then no more.
+    const double half = std::ldexp(0.5, -static_cast<int>(level));
+    const auto positions = first_positions(centred + 1);
+    const auto is_centre = [half](const SequencePosition& position) {
+      return std::fmod(position.s / half, 2) == 1 && std::fmod(position.t / half, 2) == 1;
+    };
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      EXPECT_EQ(is_centre(positions[i]), i >= whole && i < centred) << level << ' ' << i;
+    }
+  }
+}
+
 TEST(SampleSequence, IsAFunctionOfItsSeed) {
   const std::size_t count = lattice_size(4);
   for (std::uint64_t seed = 0; seed < 5; ++seed) {

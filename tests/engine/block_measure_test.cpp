@@ -74,6 +74,29 @@ Real uncertainty(const PrioritySettings& settings, std::size_t samples) {
   return running;
 }
 
+/// What a sample of a block is worth per unit of its residuals: the share that the step from one
+/// even lattice to the next takes away, per sample, of 64 / n.
+Real gain_of_sample(std::size_t samples) {
+  std::size_t before = 1;
+  for (std::size_t k = 1;; k *= 2) {
+    const std::size_t level = (k + 1) * (k + 1);
+    for (const std::size_t after : {level, level + k * k}) {
+      if (samples < after) {
+        const auto a = static_cast<Real>(before), b = static_cast<Real>(after);
+        return 64 / static_cast<Real>(samples) * (1 - std::pow(a / b, Real{1.5})) / (b - a);
+      }
+      before = after;
+    }
+  }
+}
+
+/// U r^n / n per unit of the image's variance.
+Real doubt(const PrioritySettings& settings, std::size_t samples) {
+  const auto n = static_cast<Real>(samples);
+  return static_cast<Real>(settings.uncertainty) * std::pow(static_cast<Real>(settings.decay), n) /
+         n;
+}
+
 std::vector<PrioritySettings> different_settings() {
   return {{},
           {.weight = 1, .uncertainty = 5, .decay = 0.9, .neighbours = 3, .image = 0.25},
@@ -268,7 +291,7 @@ TEST(ResidualBook, NewsAreResidualsThatHaveGrownByAQuarter) {
   EXPECT_FALSE(book.has_news(0)) << "of others nothing is known";
 }
 
-TEST(ResidualMeasure, IsTheExpectedChangeOfAPooledResidual) {
+TEST(ResidualMeasure, IsTheExpectedGainOfAPooledResidual) {
   for (const PrioritySettings& settings : different_settings()) {
     Image<ScriptedRefiner> image(4, 3, ScriptedRefiner({0.25f, 0, 3}));
     ResidualMeasure measure(settings, 12, 300);
@@ -301,10 +324,9 @@ TEST(ResidualMeasure, IsTheExpectedChangeOfAPooledResidual) {
                               (own + neighbours + whole);
         const auto variance = static_cast<Real>(image.signal.variance());
         const Real least = static_cast<Real>(1e-12) / (n + 1);
-        const Real u = variance * (uncertainty(settings, samples) + least);
-        const Real expected = (residual + static_cast<Real>(image.signal.rounding()) + u) *
-                                  static_cast<Real>(image.blocks.refiner().terms(samples)) /
-                                  (n * n) +
+        const Real expected = (residual + static_cast<Real>(image.signal.rounding()) +
+                               variance * doubt(settings, samples)) *
+                                  gain_of_sample(samples) +
                               variance * least;
         ASSERT_NEAR(measure.priority(image.view(), block, 1), static_cast<double>(expected),
                     tolerance(expected))
@@ -365,14 +387,29 @@ TEST(ResidualMeasure, SteeredPoolsResidualsAsTheyAreSeen) {
       const Real rounding = static_cast<Real>(3.25e-12);
       const Real expected =
           std::min(Real{1}, 64 / n) *
-          ((residual + rounding + variance * (uncertainty(settings, samples) + least)) *
-               static_cast<Real>(image.blocks.refiner().terms(samples)) / (n * n) +
+          ((residual + rounding + variance * doubt(settings, samples)) * gain_of_sample(samples) +
            variance * least);
       ASSERT_NEAR(measure.priority(image.view(), fed, 1), static_cast<double>(expected),
                   tolerance(expected))
           << "block " << fed << " of " << samples << " samples";
     });
   }
+}
+
+TEST(ResidualMeasure, NarrowBlocksCountByTheRootOfTheirArea) {
+  Image<ScriptedRefiner> image(2, 1, ScriptedRefiner({1}));
+  image.grid = BlockGrid::of(11, 8, 1);  // the second block has 3 of 8 columns
+  ResidualMeasure measure({}, 2, 300);
+  const float value = 0.5f;
+  for (Block block = 0; block < 2; ++block) {
+    for (int i = 0; i < 30; ++i) image.blocks.absorb(block, &value);
+    measure.absorbed(image.view(), block, 0);
+  }
+  ASSERT_EQ(image.blocks.residual(0), image.blocks.residual(1));
+  const Real whole = static_cast<Real>(measure.priority(image.view(), 0, 1));
+  const Real expected = whole * std::sqrt(Real{3} / 8);
+  EXPECT_NEAR(measure.priority(image.view(), 1, 1), static_cast<double>(expected),
+              tolerance(expected));
 }
 
 TEST(ResidualMeasure, WithoutResidualsTheRoundingIsLeft) {
@@ -385,11 +422,10 @@ TEST(ResidualMeasure, WithoutResidualsTheRoundingIsLeft) {
     image.blocks.absorb(0, &flat);
     measure.absorbed(image.view(), 0, 0);
     const auto n = static_cast<Real>(samples);
-    const Real share = static_cast<Real>(image.blocks.refiner().terms(samples)) / (n * n);
     // Of 2 times the power of a million and one; and least of all the order of the samples.
     const Real rounding = static_cast<Real>(2e-12) * 1000001;
     const Real least = static_cast<Real>(1e-12) / (n + 1);
-    const Real expected = (rounding + least) * share + least;
+    const Real expected = rounding * gain_of_sample(samples) + least;
     ASSERT_NEAR(measure.priority(image.view(), 0, 1), static_cast<double>(expected),
                 tolerance(expected))
         << samples << " samples";

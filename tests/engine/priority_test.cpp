@@ -91,6 +91,58 @@ TEST(Priority, MoreChangeIsMoreUrgent) {
   }
 }
 
+TEST(ExpectedGain, IsTheErrorTimesTheShareOfAStepPerSample) {
+  PrioritySettings settings;
+  settings.uncertainty = 0;
+  const PriorityMetric metric(settings, 300);
+  // A step from a to b samples, by hand.
+  const auto expect = [&](std::size_t n, double a, double b) {
+    const double error = 0.5 * 64 / static_cast<double>(n);
+    const double expected = error * (1 - std::pow(a / b, 1.5)) / (b - a);
+    EXPECT_NEAR(double{metric.expected_gain(0.5f, n, 0)}, expected, 1e-6 * expected) << n;
+  };
+  expect(1, 1, 4);
+  expect(4, 4, 5);
+  expect(5, 5, 9);
+  expect(24, 13, 25);
+  expect(25, 25, 41);
+  expect(40, 25, 41);
+  expect(41, 41, 81);
+  expect(100, 81, 145);
+  expect(288, 145, 289);
+  expect(289, 289, 545);
+}
+
+TEST(ExpectedGain, FadesTheDoubtOfBlocksThatAreFlat) {
+  PrioritySettings settings;
+  settings.uncertainty = 2;
+  settings.decay = 0.5;
+  const PriorityMetric metric(settings, 100);
+  for (std::size_t n = 1; n <= 100; ++n) {
+    const auto samples = static_cast<double>(n);
+    const double doubt = 3 * 2 * std::pow(0.5, samples) / samples;
+    // And 1e-12 of the variance for the order of blocks without any.
+    const double expected = double{metric.expected_gain(static_cast<float>(doubt), n, 0)};
+    EXPECT_NEAR(double{metric.expected_gain(0, n, 3)}, expected, 1e-6 * expected + 3e-12) << n;
+  }
+}
+
+TEST(ExpectedGain, FallsWithTheNumberOfSamples) {
+  const PriorityMetric metric(PrioritySettings{}, 70000);
+  for (std::size_t n = 2; n <= 70000; ++n) {
+    ASSERT_LT(metric.expected_gain(1, n, 1), metric.expected_gain(1, n - 1, 1)) << n;
+  }
+}
+
+// Blocks that are about alike all end a step before one of them begins the next.
+TEST(ExpectedGain, PrefersToEndAStep) {
+  const PriorityMetric metric({.uncertainty = 0}, 1000);
+  for (const std::size_t even : {25u, 41u, 81u, 145u, 289u, 545u}) {
+    EXPECT_GT(metric.expected_gain(1, even - 1, 0), 1.25f * metric.expected_gain(1, even, 0))
+        << even;
+  }
+}
+
 TEST(Priority, WrongSettingsAreNamed) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();

@@ -136,7 +136,25 @@ class NaiveEngine {
     const double pooled =
         (freedom * block.residual + priority_.neighbours * mean) / (freedom + priority_.neighbours);
     const auto n = static_cast<double>(block.samples);
-    return (pooled + uncertainty) * static_cast<double>(list_.terms(block.samples - 1)) / (n * n);
+    const double doubt = priority_.uncertainty * variance_ * std::pow(priority_.decay, n) / n;
+    return 64 * (pooled + doubt) / n * share_of(block.samples);
+  }
+
+  // Share of the error that a sample takes away: that of the step from one even lattice to the
+  // next, per sample. Whole levels have (k + 1)^2 positions, k = 1, 2, 4, ..; between them lies the
+  // level with its k^2 centres.
+  static double share_of(std::size_t n) {
+    std::size_t before = 1;
+    for (std::size_t k = 1; before <= n; k *= 2) {
+      const std::size_t level = (k + 1) * (k + 1);
+      for (const std::size_t after : {level, level + k * k}) {
+        if (n < after) {
+          return (1 - std::pow(double(before) / double(after), 1.5)) / double(after - before);
+        }
+        before = after;
+      }
+    }
+    return 0;
   }
 
   std::size_t blocks_x_;

@@ -146,9 +146,9 @@ TEST(SynthesizerSettings, ChannelWeightsChooseWhatMatters) {
   };
   const auto first = sampled_with({1, 0});
   const auto second = sampled_with({0, 1});
-  // 10.7 and 12.7 times as many were measured.
-  EXPECT_GT(first.first, 8 * first.second);
-  EXPECT_GT(second.second, 10 * second.first);
+  // 6.8 and 6.7 times as many were measured: flat blocks end their steps, too.
+  EXPECT_GT(first.first, 6 * first.second);
+  EXPECT_GT(second.second, 6 * second.first);
   EXPECT_EQ(sampled_with({0.5f, 0.5f}), sampled_with({})) << "equal weights are the default";
 }
 

@@ -238,17 +238,15 @@ TEST(Tiling, ImagesOfOnePixelsWidthHaveTheRightMean) {
 TEST(Tiling, NarrowStripsAreBetterThanJitteredSamples) {
   for (const int side : {1, 2}) {
     for (std::size_t narrow = 1; narrow <= 10; ++narrow) {
-      Report standing, lying;
+      Report report;  // of strips that stand and that lie
       for (unsigned phase = 0; phase < 4; ++phase) {
-        standing.add(stripes(phase), narrow, 400, side, phase);
-        lying.add(transposed(stripes(phase)), 400, narrow, side, phase);
+        report.add(stripes(phase), narrow, 400, side, phase);
+        report.add(transposed(stripes(phase)), 400, narrow, side, phase);
       }
-      for (const Report& report : {standing, lying}) {
-        Errors all = report.last;
-        all.own += report.rest.own;
-        all.jittered += report.rest.jittered;
-        EXPECT_LE(all.ratio(), side == 1 ? 1.0 : 0.75) << narrow;
-      }
+      Errors all = report.last;
+      all.own += report.rest.own;
+      all.jittered += report.rest.jittered;
+      EXPECT_LE(all.ratio(), side == 1 ? 1.0 : 0.75) << narrow;
     }
   }
 }
@@ -258,7 +256,7 @@ TEST(Tiling, TheLastColumnOfBlocksIsLikeTheRest) {
   for (const int side : {1, 2}) {
     for (const std::size_t width : {121u, 122u, 123u, 124u, 125u, 126u, 127u}) {
       Report report;
-      for (unsigned phase = 0; phase < 4; ++phase) {
+      for (unsigned phase = 0; phase < 8; ++phase) {
         report.add(stripes(phase), width, 128, side, phase);
       }
       EXPECT_LE(report.last.root(), 1.6 * report.rest.root()) << width;

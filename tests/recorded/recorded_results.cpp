@@ -209,20 +209,20 @@ struct Configuration {
 };
 
 constexpr Configuration configurations[] = {
-    {"color", color, 0x18d18164f63205fbu},
-    {"gray", gray, 0xd95adef95bfc63e0u},
+    {"color", color, 0xea3ec19f4b99f814u},
+    {"gray", gray, 0x61277e3492db0c3au},
     {"change", change, 0xf420ccd99ee56ee1u},
-    {"strict", strict, 0x04397f617d030a4cu},
-    {"weighted", weighted, 0xc8585aead58e75b0u},
-    {"noisy", noisy, 0xaeb593674e56ac87u},
+    {"strict", strict, 0x5dfd09132c022697u},
+    {"weighted", weighted, 0x1274fc214c9de2aau},
+    {"noisy", noisy, 0xbad59b6bab46c3f2u},
     {"until_quantized", until_quantized, 0x11951aaf9aaa1f6bu},
-    {"threshold", threshold, 0x2efdc18eb20d4ab7u},
+    {"threshold", threshold, 0xc78a700c0550d69cu},
     {"capped", capped, 0x10610de2f3f8242du},
-    {"other_list", other_list, 0x241a6335b10ec17au},
-    {"bad_values", bad_values, 0x3a09c6808f079b03u},
-    {"high_range", high_range, 0xa77613a150b5a143u},
-    {"many_channels", many_channels, 0x80808aaae31fbf9fu},
-    {"outputs", outputs, 0x26d5530e7c168f93u},
+    {"other_list", other_list, 0x1da3d210a7d28fcfu},
+    {"bad_values", bad_values, 0xe64e145bfb56649au},
+    {"high_range", high_range, 0x64bec56cae182f41u},
+    {"many_channels", many_channels, 0x51390f9af5ae5734u},
+    {"outputs", outputs, 0xd36d99ce9d2d0614u},
 };
 
 }  // namespace

@@ -68,6 +68,16 @@ class FREQSYNTH_API SampleSequence {
     return right ? (bottom ? 1 : 2) : (bottom ? 3 : 0);
   }
 
+  /// How many samples it takes until they are even for the `step`-th time, counted from 0: 1, then
+  /// the 4 corners, then by turns with the centres of all nodes of a level and with the whole
+  /// level, which makes 5, 9, 13, 25, 41, 81 and so on.
+  [[nodiscard]] static constexpr std::size_t even_size(std::size_t step) {
+    if (step == 0) return 1;
+    const std::size_t nodes = std::size_t{1} << (step / 2 - (step % 2 == 0 ? 1 : 0));
+    const std::size_t centres = step % 2 == 0 ? nodes * nodes : 0;
+    return (nodes + 1) * (nodes + 1) + centres;
+  }
+
   /// Most positions of the block's own border that follow each other, partners included: so many
   /// samples a block can get from its neighbours without one of its own.
   static constexpr std::size_t longest_border_run = 6;

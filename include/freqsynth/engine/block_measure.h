@@ -5,6 +5,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -239,15 +240,14 @@ class ResidualMeasure {
     const std::uint32_t samples = view.blocks.samples(block);
     const float pooled = book_.pooled(
         view, block, [&](std::uint32_t b) { return book_.of(b); }, neighbours_, image_);
-    const std::size_t terms = view.blocks.refiner().terms(samples);
+    const float area = view.grid.area(block);
+    factor *= std::sqrt(area);
     if (steering_.linear()) {
-      return factor * metric_.expected_change(view.signal.rounding() + pooled, samples, terms,
-                                              view.signal.variance());
+      return factor * metric_.expected_gain(view.signal.rounding() + pooled, samples,
+                                            view.signal.variance());
     }
-    const float pixels = max_terms * view.grid.area(block);
-    return factor * steering_.gain(static_cast<float>(samples) / pixels) *
-           metric_.expected_change(steering_.rounding() + pooled, samples, terms,
-                                   steering_.variance());
+    return factor * steering_.gain(static_cast<float>(samples) / (max_terms * area)) *
+           metric_.expected_gain(steering_.rounding() + pooled, samples, steering_.variance());
   }
 
   /// See BlockMeasure.
