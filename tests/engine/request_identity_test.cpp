@@ -12,7 +12,7 @@
 #include <mutex>
 #include <set>
 #include <thread>
-#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "freqsynth/engine/thread_pool.h"
@@ -33,7 +33,7 @@ struct Identity {
   std::uint64_t seed, pixel;
   std::uint32_t ordinal;
 
-  friend auto operator<=>(const Identity&, const Identity&) = default;
+  friend bool operator==(const Identity&, const Identity&) = default;
 };
 using Identities = std::map<std::uint64_t, Identity>;
 
@@ -56,12 +56,10 @@ Identities identities_of(const SynthesisSettings& settings, std::uint64_t sample
 }
 
 TEST(Ordinal, CountsTheSamplesOfEachPixelInTheOrderOfRequests) {
-  struct Size {
-    std::size_t width, height;
-  };
+  using Size = std::pair<std::size_t, std::size_t>;
   // Also images whose last blocks are a pixel wide, and one that is nothing else.
-  for (const auto& [width, height] :
-       {Size{40, 32}, Size{52, 43}, Size{17, 9}, Size{3, 8}, Size{1, 1}}) {
+  for (const Size& size : {Size{40, 32}, Size{52, 43}, Size{17, 9}, Size{3, 8}, Size{1, 1}}) {
+    const std::size_t width = size.first, height = size.second;
     for (const std::size_t wave : {0u, 1u, 7u}) {
       Synthesizer engine(settings_of(width, height, 1, wave));
       std::vector<std::uint32_t> counts(width * height);
