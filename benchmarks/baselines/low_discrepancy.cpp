@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "filter.h"
+#include "freqsynth/basis/owen_sobol.h"
 #include "sampler.h"
 
 namespace baselines {
@@ -105,43 +106,16 @@ Rendering rotated_grid(const Radiance& radiance, const Job& job) {
                 });
 }
 
-std::array<std::uint32_t, 2> sobol(std::uint32_t index) {
-  std::array<std::uint32_t, 2> point{};
-  std::uint32_t column = std::uint32_t{1} << 31;
-  for (std::uint32_t bit = column; index != 0; index >>= 1, bit >>= 1) {
-    if ((index & 1) != 0) {
-      point[0] ^= bit;
-      point[1] ^= column;
-    }
-    column ^= column >> 1;
-  }
-  return point;
-}
-
-std::uint32_t owen_scrambled(std::uint32_t coordinate, std::uint64_t seed) {
-  std::uint32_t scrambled = 0;
-  const std::uint64_t start = scatter(seed);
-  for (unsigned bit = 32; bit-- > 0;) {
-    // The bits above, after a 1 that tells how many they are: the node of a binary tree.
-    const std::uint64_t node = ((std::uint64_t{1} << 32) | coordinate) >> (bit + 1);
-    const auto coin = static_cast<std::uint32_t>(scatter(start ^ node) >> 63);
-    scrambled |= (((coordinate >> bit) & 1) ^ coin) << bit;
-  }
-  return scrambled;
-}
-
 Rendering sobol_box(const Radiance& radiance, const Job& job) {
   std::vector<UnitPoint> points;
   return box_of(radiance, job,
                 [&](std::uint64_t pixel, std::uint64_t count,
                     const UnitPoint&) -> const std::vector<UnitPoint>& {
-                  const std::uint64_t seed = scatter(job.seed) + 2 * pixel;
                   points.resize(count);
                   for (std::uint64_t i = 0; i < count; ++i) {
-                    const auto raw = sobol(static_cast<std::uint32_t>(i));
-                    for (std::size_t c = 0; c < 2; ++c) {
-                      points[i][c] = (owen_scrambled(raw[c], seed + c) + 0.5) * 0x1p-32;
-                    }
+                    const freqsynth::OwenSobol point(pixel, static_cast<std::uint32_t>(i),
+                                                     job.seed);
+                    points[i] = {point(0), point(1)};
                   }
                   return points;
                 });

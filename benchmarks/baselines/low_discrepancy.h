@@ -30,15 +30,6 @@ using UnitPoint = std::array<double, 2>;  ///< x and y in (0, 1)
 /// width_for_rate(). Takes exactly the samples allowed; the seed moves none.
 [[nodiscard]] Rendering rotated_grid(const Radiance& radiance, const Job& job);
 
-/// The first two dimensions of the point `index` of Sobol's sequence (1967), as fractions of 2^32:
-/// the bits of the index mirrored, and those multiplied by Pascal's triangle modulo 2.
-[[nodiscard]] std::array<std::uint32_t, 2> sobol(std::uint32_t index);
-
-/// Owen's scrambling of a coordinate (Randomly Permuted (t,m,s)-Nets and (t,s)-Sequences, 1995), by
-/// its definition: each bit is inverted or not by a coin of its own for each value of the bits
-/// above it. Coins are hashes of those bits and the seed, not kept.
-[[nodiscard]] std::uint32_t owen_scrambled(std::uint32_t coordinate, std::uint64_t seed);
-
 /// Sobol points with a scramble of their own in each pixel, and the mean of the pixel. A number of
 /// samples per pixel that is not whole gives one sequence over the image and a box that is widened
 /// by width_for_rate(). Takes exactly the samples allowed, of which 2^32 at most may be in a pixel,

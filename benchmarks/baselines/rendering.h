@@ -13,8 +13,8 @@
 namespace baselines {
 
 /// Stores the linear radiance (red, green, blue) at (x, y), in pixels, in `rgb`. `id` names the
-/// sample: a Monte Carlo scene takes its random numbers from it. Every sample of a picture has an
-/// id of its own.
+/// sample: a Monte Carlo scene takes its random decisions from it. The upper 40 bits name the
+/// pixel, the lower 24 count its samples; so every sample of a picture has an id of its own.
 using Radiance = std::function<void(double x, double y, std::uint64_t id, std::span<float, 3> rgb)>;
 
 /// What to render.

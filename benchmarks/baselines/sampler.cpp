@@ -36,7 +36,7 @@ std::size_t pixel_at(double x, double y, std::size_t width, std::size_t height) 
 Sampler::Sampler(const Radiance& radiance, const Job& job)
     : radiance_(radiance),
       job_(job),
-      first_id_(scatter(job.seed)),
+      first_pixel_(scatter(job.seed)),
       counts_(job.width * job.height, 0) {
   if (!radiance) throw std::invalid_argument("the radiance function must not be empty");
   if (counts_.empty()) throw std::invalid_argument("the image must have at least one pixel");
@@ -48,9 +48,11 @@ Sample Sampler::take(double x, double y) {
   Sample sample;
   sample.x = std::clamp(x, 0.0, static_cast<double>(job_.width));
   sample.y = std::clamp(y, 0.0, static_cast<double>(job_.height));
-  radiance_(sample.x, sample.y, first_id_ + taken_, sample.rgb);
+  const std::size_t pixel = pixel_at(sample.x, sample.y, job_.width, job_.height);
+  const std::uint64_t id = ((first_pixel_ + pixel) << 24) + counts_[pixel];
+  radiance_(sample.x, sample.y, id, sample.rgb);
   ++taken_;
-  ++counts_[pixel_at(sample.x, sample.y, job_.width, job_.height)];
+  ++counts_[pixel];
   return sample;
 }
 

@@ -60,8 +60,8 @@ class Random {
 [[nodiscard]] std::uint64_t scatter(std::uint64_t seed);
 
 /// The radiance function of a job, called no more often than the job allows. Keeps count of the
-/// calls in each pixel and gives each its own id: the number of the call, plus an offset that
-/// depends on the seed.
+/// calls in each pixel and gives each its own id: the number of the pixel, plus an offset that
+/// depends on the seed, and the number of the call in it.
 class Sampler {
  public:
   /// Both must outlive the sampler.
@@ -86,7 +86,7 @@ class Sampler {
  private:
   const Radiance& radiance_;
   const Job& job_;
-  std::uint64_t first_id_;
+  std::uint64_t first_pixel_;
   std::uint64_t taken_ = 0;
   std::vector<std::uint32_t> counts_;
 };

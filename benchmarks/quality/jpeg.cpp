@@ -118,7 +118,7 @@ Synthesis synthesize(const Subject& subject, const freqsynth::StopRule& stop, bo
   freqsynth::Synthesizer engine(settings);
   const auto sampler = [&](std::span<const freqsynth::Request> requests, std::span<float> values) {
     for (std::size_t i = 0; i < requests.size(); ++i) {
-      subject.scene->radiance(requests[i].x, requests[i].y, requests[i].id,
+      subject.scene->radiance(requests[i].x, requests[i].y, quality::id_of(requests[i], 0),
                               values.subspan(3 * i).first<3>());
     }
   };

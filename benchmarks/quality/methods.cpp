@@ -14,6 +14,7 @@
 
 #include "freqsynth/basis/sample_sequence.h"
 #include "freqsynth/freqsynth.h"
+#include "quality/scene_radiance.h"
 
 namespace quality {
 namespace {
@@ -43,17 +44,11 @@ baselines::Rendering synthesize(const baselines::Radiance& radiance, const basel
 
   baselines::Rendering result{job.width, job.height, {}, {}};
   result.samples.resize(job.width * job.height);
-  const auto pixel_of = [](double position, std::size_t size) {
-    return std::min(static_cast<std::size_t>(position), size - 1);
-  };
   const auto sampler = [&](std::span<const freqsynth::Request> requests, std::span<float> values) {
     for (std::size_t i = 0; i < requests.size(); ++i) {
       const freqsynth::Request& request = requests[i];
-      // Other seeds get other noise.
-      const std::uint64_t id = request.id ^ (job.seed << 40);
-      radiance(request.x, request.y, id, values.subspan(3 * i).first<3>());
-      ++result
-            .samples[pixel_of(request.y, job.height) * job.width + pixel_of(request.x, job.width)];
+      radiance(request.x, request.y, id_of(request, job.seed), values.subspan(3 * i).first<3>());
+      ++result.samples[request.pixel];
     }
   };
   engine.run(sampler, {.samples = job.samples});

@@ -10,6 +10,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "baselines/sampler.h"
+
 namespace quality {
 
 std::vector<float> Reference::pixels() const {
@@ -43,6 +45,7 @@ Reference render_reference(const baselines::Radiance& radiance, const PixelAvera
   const std::size_t values = 3 * settings.width * settings.height;
   for (std::vector<float>& pixels : reference.half) pixels.resize(values);
 
+  const std::uint64_t first = baselines::scatter(~settings.seed);
   const auto render_row = [&](std::size_t y, std::size_t which) {
     std::seed_seq seeds{settings.seed, settings.seed >> 32, std::uint64_t{y}, std::uint64_t{which}};
     std::mt19937_64 random(seeds);
@@ -59,8 +62,8 @@ Reference render_reference(const baselines::Radiance& radiance, const PixelAvera
         const double dx =
             (static_cast<double>(i % across) + uniform()) / static_cast<double>(across);
         const double dy = (static_cast<double>(i / across) + uniform()) / static_cast<double>(down);
-        const std::uint64_t id =
-            (std::uint64_t{1} << 63) | ((std::uint64_t{pixel} * 2 + which) * samples + i);
+        // A sequence of its own for each half of each pixel.
+        const std::uint64_t id = (first + 2 * std::uint64_t{pixel} + which) * (1 << 24) + i;
         radiance(static_cast<double>(x) + dx, static_cast<double>(y) + dy, id, value);
         for (std::size_t c = 0; c < 3; ++c) sum[c] += double{value[c]};
       }

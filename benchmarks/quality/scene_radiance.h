@@ -8,6 +8,8 @@
 #include <span>
 
 #include "baselines/rendering.h"
+#include "baselines/sampler.h"
+#include "freqsynth/sampler.h"
 #include "quality/reference.h"
 #include "scenes/scene.h"
 
@@ -18,6 +20,12 @@ inline baselines::Radiance radiance_of(const scenes::Scene& scene) {
   return [&scene](double x, double y, std::uint64_t id, std::span<float, 3> rgb) {
     scene.radiance(x, y, id, rgb);
   };
+}
+
+/// The id that a scene or a Radiance has for a sample that freqsynth asks for. Other seeds get
+/// other noise.
+inline std::uint64_t id_of(const freqsynth::Request& request, std::uint64_t seed) {
+  return scenes::sample_id(request.pixel + baselines::scatter(seed), request.ordinal);
 }
 
 /// The pixels whose average the scene knows. The scene must outlive the result.

@@ -38,8 +38,7 @@ Errors measure(const Setup& setup, const Subject& subject) {
   const std::size_t size = setup.synthesis.width;
   const auto sampler = [&](std::span<const freqsynth::Request> requests, std::span<float> values) {
     for (std::size_t i = 0; i < requests.size(); ++i) {
-      // Other seeds get other noise.
-      const std::uint64_t id = requests[i].id ^ (setup.synthesis.list.seed << 40);
+      const std::uint64_t id = quality::id_of(requests[i], setup.synthesis.list.seed);
       subject.scene->radiance(requests[i].x, requests[i].y, id, values.subspan(3 * i).first<3>());
     }
   };

@@ -46,9 +46,9 @@ std::pair<Picture, std::size_t> render_reference(const scenes::Scene& scene, std
         const double dx =
             (static_cast<double>(i % across) + uniform()) / static_cast<double>(across);
         const double dy = (static_cast<double>(i / across) + uniform()) / static_cast<double>(down);
-        // A bijection of the sample's number: unique in the picture, and other seeds give others.
-        const std::uint64_t number = (std::uint64_t{y} * width + x) * samples + i;
-        const std::uint64_t id = scenes::mix_bits(scenes::mix_bits(seed) + number);
+        // Other seeds give others.
+        const std::uint64_t pixel = std::uint64_t{y} * width + x;
+        const std::uint64_t id = scenes::sample_id(scenes::mix_bits(~seed) + pixel, i);
         sample_scene(scene, static_cast<double>(x) + dx, static_cast<double>(y) + dy, id,
                      std::span(value).first(channels));
         for (std::size_t c = 0; c < channels; ++c) {

@@ -145,7 +145,8 @@ class Synthesis {
     const auto sampler = [&](std::span<const freqsynth::Request> requests,
                              std::span<float> values) {
       for (std::size_t i = 0; i < requests.size(); ++i) {
-        sample_scene(scene_, requests[i].x, requests[i].y, requests[i].id,
+        sample_scene(scene_, requests[i].x, requests[i].y,
+                     scenes::sample_id(requests[i].pixel, requests[i].ordinal),
                      values.subspan(i * channels, channels));
       }
     };

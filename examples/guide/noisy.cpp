@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A sampler with noise, a Monte Carlo estimate seeded by the request's id, and one without.
+// A sampler with noise, a Monte Carlo estimate with the request's seed, and one without.
 #include <cmath>
-#include <cstdint>
 #include <cstdio>
 #include <vector>
 
@@ -15,19 +14,13 @@ static double truth(double x, double y) {
   return distance < 40 ? 1.0 : 0.5 - 0.5 * std::exp((40 - distance) / 20);
 }
 
-// A random number in [0, 1) that depends on the id alone (splitmix64).
-static double chance(std::uint64_t id) {
-  id = (id ^ id >> 30) * 0xbf58476d1ce4e5b9u;
-  id = (id ^ id >> 27) * 0x94d049bb133111ebu;
-  return static_cast<double>((id ^ id >> 31) >> 11) / 9007199254740992.0;
-}
-
 // Returns the truth times a random number around 1: a sampler that sees the whole request.
 struct Estimate {
   double spread;  // 0: no noise; 1: factors from 0 to 2
 
   double operator()(const freqsynth::Request& request) const {
-    return truth(request.x, request.y) * (1 + spread * (2 * chance(request.id + 1) - 1));
+    const double chance = static_cast<double>(request.seed >> 11) * 0x1p-53;  // in [0, 1)
+    return truth(request.x, request.y) * (1 + spread * (2 * chance - 1));
   }
 };
 

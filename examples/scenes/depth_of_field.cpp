@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "random.h"
-
 namespace scenes {
 namespace {
 
@@ -36,9 +34,9 @@ void DepthOfField::radiance(double x, double y, std::uint64_t id, std::span<floa
   // All rays of a pixel position meet in the plane that is in focus.
   const Vec3 meeting = camera_.eye() + kFocalDistance * camera_.direction(x, y);
 
-  Random random(seed_, id);
-  const double radius = kLensRadius * std::sqrt(random.uniform());
-  const double angle = 2.0 * std::numbers::pi * random.uniform();
+  const freqsynth::OwenSobol chance = decision(id);
+  const double radius = kLensRadius * std::sqrt(chance(0));
+  const double angle = 2.0 * std::numbers::pi * chance(1);
   const Vec3 on_lens = camera_.eye() + radius * std::cos(angle) * camera_.right() +
                        radius * std::sin(angle) * camera_.up();
   store(world_.in_daylight({on_lens, normalize(meeting - on_lens)}), rgb);

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "random.h"
-
 namespace scenes {
 namespace {
 
@@ -32,10 +30,10 @@ SolidWorld make_world() {
 }
 
 // A direction about the unit vector `axis`, with a density that grows as cos^exponent.
-Vec3 random_about(const Vec3& axis, double exponent, Random& random) {
-  const double cosine = std::pow(random.uniform(), 1.0 / (exponent + 1.0));
+Vec3 random_about(const Vec3& axis, double exponent, const freqsynth::OwenSobol& chance) {
+  const double cosine = std::pow(chance(0), 1.0 / (exponent + 1.0));
   const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
-  const double angle = 2.0 * std::numbers::pi * random.uniform();
+  const double angle = 2.0 * std::numbers::pi * chance(1);
   const Vec3 other = std::abs(axis.z) < 0.9 ? Vec3{0.0, 0.0, 1.0} : Vec3{1.0, 0.0, 0.0};
   const Vec3 u = normalize(cross(axis, other));
   const Vec3 v = cross(axis, u);
@@ -59,9 +57,8 @@ void Glossy::radiance(double x, double y, std::uint64_t id, std::span<float, 3> 
   const Finish& finish = surface->is_floor ? kFloor : kSolid;
   const double cosine = std::clamp(-dot(normal, ray.direction), 0.0, 1.0);
 
-  Random random(seed_, id);
   const Vec3 mirror = normalize(ray.direction + 2.0 * cosine * normal);
-  Vec3 direction = random_about(mirror, finish.sharpness, random);
+  Vec3 direction = random_about(mirror, finish.sharpness, decision(id));
   // The part of the lobe that would be below the surface is folded up.
   const double below = std::min(dot(normal, direction), 0.0);
   direction = normalize(direction - 2.0 * below * normal);

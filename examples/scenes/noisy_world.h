@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "camera.h"
+#include "freqsynth/basis/owen_sobol.h"
 #include "scene.h"
 #include "solid_world.h"
 
@@ -21,8 +22,15 @@ class NoisyWorld : public Scene {
   NoisyWorld(SolidWorld world, const Camera& camera, std::uint64_t seed)
       : world_(std::move(world)), camera_(camera), seed_(seed) {}
 
+  /// Where the random decision of a sample falls: two numbers in (0, 1).
+  [[nodiscard]] freqsynth::OwenSobol decision(std::uint64_t id) const {
+    return {id >> 24, static_cast<std::uint32_t>(id & 0xffffff), seed_};
+  }
+
   SolidWorld world_;
   Camera camera_;
+
+ private:
   std::uint64_t seed_;
 };
 

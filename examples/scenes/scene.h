@@ -10,9 +10,15 @@
 #include <string_view>
 
 /// Ready-made things to look at, for examples, tests and benchmarks. A scene is a plain function
-/// from a position on the image plane to a radiance. It knows nothing of the library that samples
+/// from a position on the image plane to a radiance. It knows nothing of the engine that samples
 /// it.
 namespace scenes {
+
+/// The id of sample number `ordinal` (below 2^24) of a sequence of samples, such as those of a
+/// pixel. Of the sequence's number 40 bits count.
+[[nodiscard]] constexpr std::uint64_t sample_id(std::uint64_t sequence, std::uint64_t ordinal) {
+  return (sequence << 24) + ordinal;
+}
 
 /// A radiance function over an image of a fixed size.
 class Scene {
@@ -23,10 +29,12 @@ class Scene {
   /// position (x, y) in `rgb`. x grows to the right in [0, width], y grows downwards in [0,
   /// height], and pixel (i, j) is centred at (i + 0.5, j + 0.5).
   ///
-  /// A point sample, without a filter. `id` names the sample. A scene that is not noisy() ignores
-  /// it; a noisy one takes all its random numbers from it and SceneOptions::seed, and the mean of
-  /// its values over all ids is the radiance. The same arguments always give the same value. Safe
-  /// to call from any number of threads at once.
+  /// A point sample, without a filter. `id` names the sample, see sample_id(). A scene that is not
+  /// noisy() ignores it; a noisy one takes all its random decisions from it and SceneOptions::seed,
+  /// and the mean of its values over all ids is the radiance. Decisions of different sequences are
+  /// independent; those of a sequence are evenly spread, so that samples near each other have less
+  /// noise together when they are the first ones of the same sequence. The same arguments always
+  /// give the same value. Safe to call from any number of threads at once.
   virtual void radiance(double x, double y, std::uint64_t id, std::span<float, 3> rgb) const = 0;
 
   /// Whether radiance() is a Monte Carlo estimate, whose value depends on the sample's id.

@@ -3,8 +3,6 @@
 
 #include <numbers>
 
-#include "random.h"
-
 namespace scenes {
 namespace {
 
@@ -40,9 +38,9 @@ void SoftShadow::radiance(double x, double y, std::uint64_t id, std::span<float,
     store(kAmbient, rgb);
     return;
   }
-  Random random(seed_, id);
-  const double across = kLampSide * (random.uniform() - 0.5);
-  const double along = kLampSide * (random.uniform() - 0.5);
+  const freqsynth::OwenSobol chance = decision(id);
+  const double across = kLampSide * (chance(0) - 0.5);
+  const double along = kLampSide * (chance(1) - 0.5);
   const Vec3 path = kLampMiddle + Vec3{across, along, 0.0} - surface->point;
   const double distance = length(path);
   const Vec3 to_lamp = (1.0 / distance) * path;

@@ -5,7 +5,8 @@
 /// A host's radiance function comes in one of three forms:
 ///  - scalar: `f(x, y)` returns a float (or double) for one channel, or a std::array of them;
 ///  - by request: `f(request)` does the same for a `const Request&`, which has more than the
-///    position: a name to seed random numbers with, the distance to other samples;
+///    position: a seed for random numbers, the sample's ordinal in its pixel, the distance to other
+///    samples, a number for the thread's own memory;
 ///  - batch: `f(std::span<const Request>, std::span<float>)` writes `channels` values per request,
 ///    those of request i at [i * channels, (i + 1) * channels).
 #pragma once
@@ -27,14 +28,29 @@ struct Request {
   double x = 0;  ///< continuous pixels to the right, in [0, width]; pixel i is centred at i + 0.5
   double y = 0;  ///< continuous pixels downwards, in [0, height]
   /// Names the point: the same for the same point whatever the batch size, the wave size or the
-  /// number of threads, and no two points of an image share one. Good as a seed for the host's
-  /// random numbers.
+  /// number of threads, and no two points of an image share one. Neighbours have similar ones.
   std::uint64_t id = 0;
   /// Distance in pixels to the nearest earlier samples of the block, a footprint for texture
   /// filters. In a block of less than 8 pixels in width or height, the last of its row or column,
   /// it is told along the shorter side.
   float spacing = 0;
   std::uint32_t slot = 0;  ///< the engine's own note; hand it back unchanged
+  /// A seed for the host's random numbers: all bits of `id` and of SynthesisSettings::seed, well
+  /// mixed. No two points of an image share one; pictures of other settings' seeds have others.
+  std::uint64_t seed = 0;
+  /// The pixel that contains the point, row * width + column. The image's right and bottom border
+  /// belong to the last pixels.
+  std::uint64_t pixel = 0;
+  /// The samples of a pixel are numbered 0, 1, 2, ... in the order in which the engine chooses
+  /// them: the place in a sequence for the pixel, such as that of OwenSobol (basis/owen_sobol.h).
+  /// Like the id it is the same whatever the batch size, the number of threads and the order of
+  /// delivery. It depends on the values delivered before, and on the wave size, as which points are
+  /// chosen does.
+  std::uint32_t ordinal = 0;
+  /// Within Synthesizer::run(), no two calls of the sampler at the same time have the same number
+  /// here, which is below the executor's concurrency(): for memory or a generator that calls must
+  /// not share. In a loop of the host's own 0.
+  std::uint32_t thread = 0;
 };
 
 /// Largest magnitude that is usable: the coefficients of such values, eight times as large, and

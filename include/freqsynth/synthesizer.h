@@ -39,6 +39,10 @@ struct SynthesisSettings {
   /// edges falls faster.
   bool noisy = false;
 
+  /// Of Request::seed: pictures with another one, such as frames of an animation, are to have
+  /// independent noise. It moves no sample.
+  std::uint64_t seed = 0;
+
   InverseListSettings list = {};   ///< the order of samples and terms
   PrioritySettings priority = {};  ///< which block is next
   /// Blocks sampled between two choices; 1 is the paper's strict order, 0 chooses 1/32 of all

@@ -113,7 +113,7 @@ struct Synthesizer::Implementation {
                          grid.size(), settings.max_samples_per_block);
     engines.emplace<Engine<R, M>>(grid, std::move(blocks), std::move(measure),
                                   detail::factors_of(grid, settings.importance), settings.wave,
-                                  settings.priority.exploration);
+                                  settings.priority.exploration, settings.seed);
   }
 
   template <class Variant, class Use>

@@ -3,9 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <numeric>
-#include <random>
 #include <set>
 
 #include "baseline_helpers.h"
@@ -124,15 +122,6 @@ TEST(RotatedGrid, HasAsManyLevelsAsSamplesOnANearlyVerticalEdge) {
   EXPECT_EQ(levels.size(), 17u);
 }
 
-TEST(Sobol, BeginsAsItIsKnown) {
-  constexpr std::uint32_t quarter = 1u << 30;
-  using Pair = std::array<std::uint32_t, 2>;
-  EXPECT_EQ(sobol(0), (Pair{0, 0}));
-  EXPECT_EQ(sobol(1), (Pair{2 * quarter, 2 * quarter}));
-  EXPECT_EQ(sobol(2), (Pair{quarter, 3 * quarter}));
-  EXPECT_EQ(sobol(3), (Pair{3 * quarter, quarter}));
-}
-
 /// Whether each of the rectangles of area 2^-m whose sides are powers of two holds one of the 2^m
 /// points: what a (0, m, 2)-net is.
 bool is_net(std::span<const std::array<std::uint32_t, 2>> points, unsigned m) {
@@ -147,59 +136,6 @@ bool is_net(std::span<const std::array<std::uint32_t, 2>> points, unsigned m) {
     if (cells.size() != points.size()) return false;
   }
   return true;
-}
-
-TEST(Sobol, EveryPrefixOfAPowerOfTwoIsANetScrambledOrNot) {
-  for (unsigned m = 0; m <= 9; ++m) {
-    for (std::uint64_t seed = 0; seed < 6; ++seed) {
-      std::vector<std::array<std::uint32_t, 2>> points;
-      for (std::uint32_t i = 0; i < (1u << m); ++i) {
-        points.push_back(sobol(i));
-        if (seed == 0) continue;
-        for (std::size_t c = 0; c < 2; ++c) {
-          points.back()[c] = owen_scrambled(points.back()[c], 2 * seed + c);
-        }
-      }
-      ASSERT_TRUE(is_net(points, m)) << m << ' ' << seed;
-    }
-  }
-}
-
-TEST(Owen, ScramblesEachDigitByThoseAboveItAlone) {
-  std::mt19937 random(1);
-  for (int i = 0; i < 2000; ++i) {
-    const auto a = static_cast<std::uint32_t>(random());
-    // Equal above a digit, different there.
-    const unsigned digit = static_cast<unsigned>(random() % 32);
-    const auto b = static_cast<std::uint32_t>(a ^ (std::uint32_t{1} << digit) ^
-                                              (random() & ((std::uint32_t{1} << digit) - 1)));
-    const std::uint32_t difference = owen_scrambled(a, 5) ^ owen_scrambled(b, 5);
-    ASSERT_EQ(std::bit_width(difference), std::bit_width(a ^ b)) << a << ' ' << b;
-  }
-}
-
-TEST(Owen, CoinsAreFairAndIndependent) {
-  // Over seeds, of two nodes' coins in each digit: fair, and equal in half of all cases. The
-  // deviation of a share of 4096 is 1/128; five of them are allowed.
-  constexpr int seeds = 4096;
-  const std::uint32_t a = 0x12345678;
-  const std::uint32_t b = ~a;
-  for (unsigned digit = 0; digit < 32; ++digit) {
-    int ones = 0;
-    int equal = 0;
-    for (std::uint64_t seed = 0; seed < seeds; ++seed) {
-      const unsigned coin_a = ((owen_scrambled(a, seed) ^ a) >> digit) & 1;
-      const unsigned coin_b = ((owen_scrambled(b, seed) ^ b) >> digit) & 1;
-      ones += static_cast<int>(coin_a);
-      equal += coin_a == coin_b;
-    }
-    EXPECT_NEAR(ones, seeds / 2, 5 * 32) << digit;
-    if (digit < 31) {
-      EXPECT_NEAR(equal, seeds / 2, 5 * 32) << digit;
-    } else {
-      EXPECT_EQ(equal, seeds) << "nothing is above the first digit";
-    }
-  }
 }
 
 TEST(SobolBox, SamplesOfEachPixelAreANetOfItsOwn) {

@@ -6,17 +6,15 @@
 #include <string>
 
 #include "freqsynth/basis/check.h"
+#include "freqsynth/basis/mix_bits.h"
 #include "freqsynth/basis/sample_sequence.h"
 
 namespace freqsynth {
 namespace detail {
 
-/// A well-mixed bit of a counter (the finaliser of a linear congruential hash, Steele et al. 2014).
+/// A well-mixed bit of a counter.
 inline bool random_bit(std::uint64_t seed, std::uint64_t counter) {
-  std::uint64_t z = seed + 0x9e3779b97f4a7c15ull * (counter + 1);
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
-  return ((z ^ (z >> 31)) & 1) != 0;
+  return (mix_bits(seed + golden_step * (counter + 1)) & 1) != 0;
 }
 
 struct QuadNode {

@@ -31,6 +31,7 @@
 #include "freqsynth/engine/channel_units.h"
 #include "freqsynth/engine/edge_cache.h"
 #include "freqsynth/engine/exploration.h"
+#include "freqsynth/engine/pixel_counts.h"
 #include "freqsynth/engine/signal_statistics.h"
 #include "freqsynth/engine/stop_rule.h"
 #include "freqsynth/engine/wave.h"
@@ -47,8 +48,9 @@ class Engine {
   /// \param factors      factor on the priority of each block of the grid
   /// \param wave         most blocks of a wave; 0: 1/32 of all blocks
   /// \param exploration  see PrioritySettings::exploration
+  /// \param seed         of Request::seed
   Engine(const BlockGrid& grid, BlockStore<R> blocks, M measure, std::vector<float> factors,
-         std::size_t wave, double exploration = 0);
+         std::size_t wave, double exploration = 0, std::uint64_t seed = 0);
 
   /// Sets when request() stops, from the next wave on. \throws like StopRule::validate().
   void set_stop(const StopRule& stop);
@@ -89,9 +91,6 @@ class Engine {
   [[nodiscard]] const SequencePosition& position(std::size_t index) const {
     return blocks_.refiner().list().position(index);
   }
-  [[nodiscard]] std::uint64_t name(const Wave::Slot& slot) const {
-    return grid_.name(slot.block, slot.index, position(slot.index));
-  }
   std::optional<StopReason> prepare_wave();
   void reserve(std::size_t most);
   void choose(std::uint32_t block);
@@ -115,7 +114,9 @@ class Engine {
   SignalStatistics signal_;
   BlockChoice<R, M> choice_;
   Wave wave_;
-  BlockSet touched_;  // blocks that the wave asks for, or that it has changed
+  PixelCounts pixels_;
+  BlockSet touched_;     // blocks that the wave asks for, or that it has changed
+  std::uint64_t frame_;  // the seed, mixed
   std::size_t wave_size_;
   Exploration exploration_;
   double shares_ = 0;  // of all blocks, see BlockChoice::share()

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "freqsynth/basis/mix_bits.h"
 #include "freqsynth/engine/engine.h"
+#include "freqsynth/engine/engine_requests.inl"
 
 namespace freqsynth {
 
 template <Refiner R, BlockMeasure<R> M>
 Engine<R, M>::Engine(const BlockGrid& grid, BlockStore<R> blocks, M measure,
-                     std::vector<float> factors, std::size_t wave, double exploration)
+                     std::vector<float> factors, std::size_t wave, double exploration,
+                     std::uint64_t seed)
     : grid_(grid),
       blocks_(std::move(blocks)),
       cache_(grid, blocks_.refiner().channels()),
@@ -15,7 +18,9 @@ Engine<R, M>::Engine(const BlockGrid& grid, BlockStore<R> blocks, M measure,
       signal_(blocks_.refiner().channels()),
       choice_(std::move(measure), std::move(factors)),
       wave_(blocks_.refiner().channels()),
+      pixels_(grid),
       touched_(grid.size()),
+      frame_(detail::mix_bits(seed + detail::golden_step)),
       exploration_(exploration, grid.size()) {
   const std::size_t most = std::max<std::size_t>(grid.size(), 1);
   wave_size_ = wave != 0 ? std::min(wave, most) : std::max<std::size_t>(most / 32, 1);
@@ -37,15 +42,6 @@ void Engine<R, M>::set_stop(const StopRule& stop) {
   stop_ = stop;
   stop_.samples = stop.most_samples(grid_.width, grid_.height);
   patience_ = stats_.samples + unusable_at_most;
-}
-
-template <Refiner R, BlockMeasure<R> M>
-std::size_t Engine<R, M>::request(std::span<Request> out) {
-  const std::lock_guard lock(mutex_);
-  if (wave_.empty() && prepare_wave()) return 0;
-  std::size_t count = 0;
-  while (count < out.size() && wave_.waiting()) out[count++] = make_request(wave_.hand_out());
-  return count;
 }
 
 template <Refiner R, BlockMeasure<R> M>
@@ -82,6 +78,7 @@ std::optional<StopReason> Engine<R, M>::prepare_wave() {
 template <Refiner R, BlockMeasure<R> M>
 void Engine<R, M>::reserve(std::size_t most) {
   wave_.reserve(most);
+  pixels_.reserve(most);
   // Each sample goes to up to four blocks, and each may go on with its corners and what waits.
   blocks_.reserve(20 * most + cache_.waiting());
   cache_.reserve(most);
@@ -140,53 +137,6 @@ bool Engine<R, M>::asked_by_neighbour(std::uint32_t block, std::uint32_t index) 
   return asked;
 }
 
-template <Refiner R, BlockMeasure<R> M>
-Request Engine<R, M>::make_request(std::uint32_t slot) const {
-  const Wave::Slot& asked = wave_.slot(slot);
-  const SequencePosition& place = position(asked.index);
-  const BlockGrid::Point point = grid_.point(asked.block, place);
-  const std::size_t side =
-      std::min(grid_.block_width(asked.block), grid_.block_height(asked.block));
-  return {point.x, point.y, name(asked), place.spacing * static_cast<float>(side), slot};
-}
-
-/// Claims the slots of all requests. \throws std::invalid_argument, and none is claimed.
-template <Refiner R, BlockMeasure<R> M>
-void Engine<R, M>::claim(std::span<const Request> requests) {
-  for (std::size_t i = 0; i < requests.size(); ++i) {
-    const Request& request = requests[i];
-    if (wave_.owed(request.slot) && name(wave_.slot(request.slot)) == request.id) {
-      wave_.claim(request.slot);
-      continue;
-    }
-    for (const Request& before : requests.first(i)) wave_.let_go(before.slot);
-    detail::refuse("request " + std::to_string(request.id) + " is not owed");
-  }
-}
-
-template <Refiner R, BlockMeasure<R> M>
-void Engine<R, M>::deliver(std::span<const Request> requests, std::span<const float> values) {
-  const std::size_t channels = blocks_.refiner().channels();
-  if (values.size() != requests.size() * channels) {
-    detail::refuse(std::to_string(values.size()) + " values for " +
-                   std::to_string(requests.size()) + " requests of " + std::to_string(channels) +
-                   " channels");
-  }
-  const std::lock_guard lock(mutex_);
-  claim(requests);
-  for (std::size_t i = 0; i < requests.size(); ++i) {
-    wave_.deliver(requests[i].slot, values.data() + i * channels);
-  }
-  if (wave_.complete()) finish_wave();
-}
-
-template <Refiner R, BlockMeasure<R> M>
-void Engine<R, M>::give_back(std::span<const Request> requests) {
-  const std::lock_guard lock(mutex_);
-  claim(requests);
-  for (const Request& request : requests) wave_.recall(request.slot);
-}
-
 /// Takes in a complete wave. Nothing in it throws; see reserve().
 template <Refiner R, BlockMeasure<R> M>
 void Engine<R, M>::finish_wave() {
@@ -195,8 +145,8 @@ void Engine<R, M>::finish_wave() {
   if (!units_.fit(wave_.values())) change_units();
   for (std::size_t i = 0; i < wave_.size(); ++i) {
     if (i + ahead < wave_.size()) {
-      const auto [block, index] = wave_.slot(i + ahead);
-      blocks_.prefetch(block, index);
+      const Wave::Slot& soon = wave_.slot(i + ahead);
+      blocks_.prefetch(soon.block, soon.index);
     }
     note(wave_.slot(i), wave_.values(i));
     route(wave_.slot(i), wave_.values(i));
@@ -250,7 +200,7 @@ void Engine<R, M>::note(const Wave::Slot& slot, const float* values) {
   ++stats_.bad_samples;
   if (bad_.size() < most_bad_reported) {
     const BlockGrid::Point point = grid_.point(slot.block, place);
-    bad_.push_back({point.x, point.y, name(slot)});
+    bad_.push_back({point.x, point.y, slot.id});
   }
 }
 

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <exception>
 #include <stdexcept>
 #include <string>
@@ -32,12 +33,15 @@ namespace freqsynth::detail {
 template <class E>
 class Batch {
  public:
-  Batch(E& engine, std::size_t channels, std::size_t most, std::size_t most_parts)
+  /// \param concurrency  parts that are at work at the same time, unless the executor lies
+  Batch(E& engine, std::size_t channels, std::size_t most, std::size_t most_parts,
+        std::size_t concurrency)
       : engine_(engine),
         channels_(channels),
         requests_(most),
         values_(most * channels),
-        parts_(std::max<std::size_t>(most_parts, 1)) {}
+        parts_(std::max<std::size_t>(most_parts, 1)),
+        expected_at_work_(std::clamp<std::size_t>(concurrency, 1, parts_.size())) {}
   Batch(const Batch&) = delete;
   Batch& operator=(const Batch&) = delete;
   ~Batch() { settle(); }
@@ -59,6 +63,10 @@ class Batch {
     if (index >= part_count_ || parts_[index].begun.exchange(true)) return;
     const std::size_t first = first_of(index);
     const std::size_t size = first_of(index + 1) - first;
+    const Seat seat(*this);
+    if (seat.number() != 0) {
+      for (std::size_t i = 0; i < size; ++i) requests_[first + i].thread = seat.number();
+    }
     try {
       sampler(std::span<const Request>(requests_).subspan(first, size),
               std::span<float>(values_).subspan(first * channels_, size * channels_),
@@ -97,8 +105,36 @@ class Batch {
  private:
   struct Part {
     std::atomic<bool> begun{false};
-    std::size_t done = 0;  // requests whose values are there
+    std::atomic<bool> seat_taken{false};  // of the seat with the same number, not this part's
+    std::size_t done = 0;                 // requests whose values are there
     std::exception_ptr error;
+  };
+
+  /// A number that no other part at work has. As long as no more are at work than the executor has
+  /// said, there are so many numbers, and one of them is free.
+  class Seat {
+   public:
+    explicit Seat(Batch& batch) : batch_(batch) {
+      const bool expected = batch.at_work_.fetch_add(1) < batch.expected_at_work_;
+      const std::size_t first = expected ? 0 : batch.expected_at_work_;
+      const std::size_t end = expected ? batch.expected_at_work_ : batch.parts_.size();
+      number_ = first;
+      while (batch.parts_[number_].seat_taken.exchange(true)) {
+        number_ = number_ + 1 < end ? number_ + 1 : first;
+      }
+    }
+    ~Seat() {
+      batch_.parts_[number_].seat_taken = false;
+      --batch_.at_work_;
+    }
+    Seat(const Seat&) = delete;
+    Seat& operator=(const Seat&) = delete;
+
+    [[nodiscard]] std::uint32_t number() const { return static_cast<std::uint32_t>(number_); }
+
+   private:
+    Batch& batch_;
+    std::size_t number_;
   };
 
   [[nodiscard]] std::size_t first_of(std::size_t part) const { return part * count_ / part_count_; }
@@ -108,6 +144,8 @@ class Batch {
   std::vector<Request> requests_;
   std::vector<float> values_;
   std::vector<Part> parts_;
+  std::size_t expected_at_work_;
+  std::atomic<std::size_t> at_work_{0};
   std::size_t count_ = 0;
   std::size_t part_count_ = 0;
 };
@@ -136,7 +174,7 @@ RunReport run_loop(E& engine, std::size_t channels, const SamplerRef& sampler, c
   const std::size_t most = std::min(batch, engine.wave_size());
   const std::size_t most_parts =
       concurrency <= 1 ? 1 : std::min(most, 4 * std::min(concurrency, most));
-  Batch<E> requests(engine, channels, most, most_parts);
+  Batch<E> requests(engine, channels, most, most_parts, concurrency);
   while (const std::size_t parts = requests.fill()) {
     const auto task = [&](std::size_t index) { requests.answer(sampler, index); };
     const auto sampling_begin = Clock::now();

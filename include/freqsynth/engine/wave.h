@@ -22,8 +22,12 @@ class Wave {
  public:
   /// The position that a slot asks for: the next one of a block.
   struct Slot {
-    std::uint32_t block = 0;  ///< that asks
-    std::uint32_t index = 0;  ///< in the block's sequence
+    static constexpr std::uint32_t no_ordinal = 0xffffffffu;  ///< not handed out yet
+
+    std::uint32_t block = 0;             ///< that asks
+    std::uint32_t index = 0;             ///< in the block's sequence
+    std::uint32_t ordinal = no_ordinal;  ///< in its pixel
+    std::uint64_t id = 0;                ///< of the request, once handed out
   };
 
   /// Empty, and without room.
@@ -40,6 +44,8 @@ class Wave {
   [[nodiscard]] bool empty() const { return slots_.empty(); }
   /// What slot number `slot` asks for.
   [[nodiscard]] const Slot& slot(std::size_t slot) const { return slots_[slot]; }
+  /// The same, to complete it.
+  [[nodiscard]] Slot& slot(std::size_t slot) { return slots_[slot]; }
 
   /// Whether a slot waits to be handed out.
   [[nodiscard]] bool waiting() const { return next_ < slots_.size() || !returned_.empty(); }
