@@ -12,11 +12,14 @@
 #include <vector>
 
 #include "freqsynth/basis/config.h"
+#include "freqsynth/basis/dct.h"
 #include "freqsynth/basis/shared_list.h"
 #include "freqsynth/engine/block_grid.h"
 #include "freqsynth/engine/block_store.h"
 #include "freqsynth/image/frequency_image.h"
+#include "freqsynth/image/noisy_picture.h"
 #include "freqsynth/image/pixel_finisher.h"
+#include "freqsynth/image/smooth_noise.h"
 #include "freqsynth/refine/refiner.h"
 
 namespace freqsynth {
@@ -106,6 +109,68 @@ class ImageAgreement {
 
 }  // namespace detail
 
+namespace detail {
+
+/// The cells of all blocks as one picture with noise.
+class BlockPicture {
+ public:
+  BlockPicture(const BlockGrid& grid, std::size_t channels) : grid_(grid) {
+    picture_.width = grid.blocks_x * block_size;
+    picture_.height = grid.blocks_y * block_size;
+    picture_.weights.resize(picture_.width * picture_.height);
+    picture_.sums.assign(channels, picture_.weights);
+    picture_.pixels.assign(channels, picture_.weights);
+  }
+
+  /// Takes what the samples of a block say, and its finished coefficients.
+  void add(const PixelFinisher& finisher, const BlockFit& fit, std::size_t block,
+           std::size_t channel, std::span<const float, max_terms> coefficients) {
+    std::array<float, max_terms> weights, sums, pixels;
+    inverse_dct(coefficients, pixels);
+    finisher.pixel_samples(fit, pixels, weights, sums);
+    visit(block, [&](std::size_t cell, std::size_t pixel) {
+      picture_.weights[pixel] = weights[cell];
+      picture_.sums[channel][pixel] = sums[cell];
+      picture_.pixels[channel][pixel] = pixels[cell];
+    });
+  }
+
+  /// Channels without a weight are features of the others; where all are without, none is.
+  void smooth(std::span<const float> channel_weights) {
+    std::vector<std::size_t> channels, features;
+    for (std::size_t c = 0; c < channel_weights.size(); ++c) {
+      (channel_weights[c] > 0 ? channels : features).push_back(c);
+    }
+    smooth_noise(picture_, channels, features);
+  }
+
+  /// The coefficients of a block.
+  void take(std::size_t block, std::size_t channel,
+            std::span<float, max_terms> coefficients) const {
+    std::array<float, max_terms> pixels;
+    visit(block, [&](std::size_t cell, std::size_t pixel) {
+      pixels[cell] = picture_.pixels[channel][pixel];
+    });
+    forward_dct(pixels, coefficients);
+  }
+
+ private:
+  /// Calls visit(cell of the block, pixel of the picture).
+  template <class Visit>
+  void visit(std::size_t block, Visit&& visit) const {
+    const std::size_t first =
+        (grid_.row(block) * picture_.width + grid_.column(block)) * block_size;
+    for (std::size_t cell = 0; cell < max_terms; ++cell) {
+      visit(cell, first + cell / block_size * picture_.width + cell % block_size);
+    }
+  }
+
+  const BlockGrid& grid_;
+  NoisyPicture picture_;
+};
+
+}  // namespace detail
+
 /// Finished pixels (CoefficientMeaning::pixel_average).
 /// \param list  the one that the blocks were refined with
 /// \throws std::invalid_argument when a setting is out of range.
@@ -117,6 +182,8 @@ template <Refiner R>
   FrequencyImage image(grid.width, grid.height, channels, CoefficientMeaning::pixel_average);
   detail::ImageAgreement<R> agreement(grid, blocks, list);
   if (settings.residuals) agreement.compare();
+  const bool smooth = settings.residuals && settings.smooth_noise;
+  detail::BlockPicture picture(grid, smooth ? channels : 0);
   PixelFinisher finisher(list, settings);
   std::vector<Gap> gaps;
   for (const std::uint32_t block : agreement.order()) {
@@ -126,9 +193,17 @@ template <Refiner R>
     finisher.advance(blocks.samples(block));
     for (std::size_t c = 0; c < channels; ++c) {
       const bool constant = settings.residuals && agreement.constant_pixels(block, c);
-      finisher.finish(blocks.fit_without_gaps(block, c, gaps), image.coefficients(x, y, c),
-                      constant);
-      detail::to_host_unit(image.coefficients(x, y, c), blocks.exponent(c));
+      const BlockFit fit = blocks.fit_without_gaps(block, c, gaps);
+      finisher.finish(fit, image.coefficients(x, y, c), constant);
+      if (smooth) picture.add(finisher, fit, block, c, image.coefficients(x, y, c));
+    }
+  }
+  if (smooth) picture.smooth(blocks.refiner().weights());
+  for (std::size_t block = 0; block < blocks.size(); ++block) {
+    for (std::size_t c = 0; c < channels; ++c) {
+      const auto coefficients = image.coefficients(grid.column(block), grid.row(block), c);
+      if (smooth) picture.take(block, c, coefficients);
+      detail::to_host_unit(coefficients, blocks.exponent(c));
     }
   }
   return image;

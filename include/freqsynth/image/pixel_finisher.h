@@ -47,12 +47,16 @@ struct FinishSettings {
   /// median; where fewer than 4 of them have samples, in the range of the whole block. Only in
   /// blocks whose residuals are over 1 percent of that range. >= 0; infinite: no bounds.
   double slack = 0.4;
+  /// What noise is left is smoothed over the whole picture, see smooth_noise(): all channels that
+  /// have a weight, with those that have none as features.
+  bool smooth_noise = false;
 
   /// For a sampler that returns Monte Carlo estimates.
   [[nodiscard]] static FinishSettings noisy() {
     FinishSettings settings;
     settings.doubt = 1;
     settings.measure_doubt = true;
+    settings.smooth_noise = true;
     return settings;
   }
 
@@ -75,6 +79,12 @@ class FREQSYNTH_API PixelFinisher {
   ///                         block and of those around says
   void finish(const BlockFit& fit, std::span<float, max_terms> out,
               bool constant_pixels = false) const;
+
+  /// How many samples each pixel of a block has, by area, and their sums. A sample that was a gap
+  /// counts as much as the pixel's others on average; where there is none, `otherwise` stands for
+  /// them.
+  void pixel_samples(const BlockFit& fit, std::span<const float, max_terms> otherwise,
+                     std::span<float, max_terms> weights, std::span<float, max_terms> sums) const;
 
  private:
   void finish_without_gaps(const BlockFit& fit, std::span<float, max_terms> out) const;

@@ -13,6 +13,13 @@
 #include "freqsynth/image/pixel_finisher.h"
 
 namespace freqsynth {
+namespace detail {
+
+/// Where all samples of a pixel fell away, rounding is left; and where hardly anything is, mostly
+/// rounding.
+inline constexpr float least_weight = 1e-3f;
+
+}  // namespace detail
 
 FREQSYNTH_INLINE void FinishSettings::validate() const {
   butterworth.validate();
@@ -150,6 +157,27 @@ FREQSYNTH_INLINE void PixelFinisher::bound(const BlockFit& fit, std::span<float,
   }
 }
 
+FREQSYNTH_INLINE void PixelFinisher::pixel_samples(const BlockFit& fit,
+                                                   std::span<const float, max_terms> otherwise,
+                                                   std::span<float, max_terms> weights,
+                                                   std::span<float, max_terms> sums) const {
+  std::array<float, max_terms> good = weights_;
+  std::copy(fit.pixel_sums.begin(), fit.pixel_sums.end(), sums.begin());
+  for (const Gap& gap : fit.gaps) {
+    const detail::SampleRow& row = list_->row(gap.sample);
+    for (std::size_t p = 0; p < row.pixel_count; ++p) {
+      good[row.pixels[p]] -= row.pixel_weights[p];
+      sums[row.pixels[p]] -= gap.value * row.pixel_weights[p];
+    }
+  }
+  for (std::size_t pixel = 0; pixel < max_terms; ++pixel) {
+    weights[pixel] = weights_[pixel];
+    if (fit.gaps.empty()) continue;
+    const bool any = good[pixel] > detail::least_weight;
+    sums[pixel] = weights_[pixel] * (any ? sums[pixel] / good[pixel] : otherwise[pixel]);
+  }
+}
+
 /// As if the samples that are gaps had not been taken.
 FREQSYNTH_INLINE void PixelFinisher::finish_without_gaps(const BlockFit& fit,
                                                          std::span<float, max_terms> out) const {
@@ -172,9 +200,7 @@ FREQSYNTH_INLINE void PixelFinisher::finish_without_gaps(const BlockFit& fit,
   others.filter_ = butterworth_factors(settings_.butterworth, others.samples_);
   for (std::size_t pixel = 0; pixel < max_terms; ++pixel) {
     float& weight = others.weights_[pixel];
-    // Where all samples fell away, rounding is left; and where hardly anything is, mostly rounding.
-    constexpr float least = 1e-3f;
-    if (weight < least) weight = 0;
+    if (weight < detail::least_weight) weight = 0;
     others.inverse_weights_[pixel] = weight > 0 ? 1 / weight : 0;
   }
   others.finish({fit.coefficients, pixel_sums, fit.residual}, out);

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+/// \file
+/// What noise does to blocks as wholes: their levels differ, and steps show on their borders. Both
+/// are judged by the noise that the samples of a block show, and taken back where noise explains
+/// them.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "freqsynth/basis/config.h"
+#include "freqsynth/image/noisy_picture.h"
+
+namespace freqsynth {
+namespace detail {
+
+/// Takes steps across the borders of blocks back. A step, extrapolated from the two pixels on
+/// either side and averaged along the border, counts s^2 / (s^2 + v); what is left of it is spread
+/// over the four pixels on each side.
+/// \param pixels    of one channel, changed in place
+/// \param sums      of the channel's samples in each pixel
+/// \param variance  v, in units of the variance of a pixel's mean
+FREQSYNTH_API void close_borders(const NoisyPicture& picture, std::span<const float> sums,
+                                 double variance, std::span<float> pixels);
+
+/// Draws the levels of blocks to that of all samples around where they differ no more than noise
+/// would make them (empirical Bayes). A block that was sampled until it had seen light, or was left
+/// because it had seen none, has a level that is biased; the sum of all samples around over their
+/// number is not (Wald).
+/// \param pixels  of one channel, changed in place
+/// \param sums    of the channel's samples in each pixel
+FREQSYNTH_API void pool_levels(const NoisyPicture& picture, std::span<const float> sums,
+                               std::span<float> pixels);
+
+}  // namespace detail
+}  // namespace freqsynth
+
+#if defined(FREQSYNTH_HEADER_ONLY)
+#include "freqsynth/image/block_noise.inl"
+#endif

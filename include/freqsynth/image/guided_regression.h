@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+/// \file
+/// Local linear regression of noisy samples on what is known of each pixel beside them.
+///
+/// Moon et al. (2014) and Bitterli et al. (2016) regress the radiance of noisy pixels on features
+/// that are nearly free of noise (colour, normal, distance of the first surface), pixel by pixel.
+/// Here the regression is a guided filter (He et al. 2010) whose pixels count by their samples: one
+/// fit for each small cell, to the samples of the cells around it, and pixels between the cells'
+/// centres take the mean of the four predictions. It shows no borders, neither of cells nor of
+/// blocks, and keeps the mean of the samples.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "freqsynth/basis/config.h"
+#include "freqsynth/image/noisy_picture.h"
+
+namespace freqsynth {
+namespace detail {
+
+/// Side of the cells in pixels.
+inline constexpr std::size_t regression_cell = 2;
+/// How many cells on each side of one count for it.
+inline constexpr std::size_t regression_reach = 2;
+
+/// One regression for each cell, of several targets on the same guides and on the position.
+class FREQSYNTH_API GuidedRegression {
+ public:
+  /// What targets are regressed on.
+  struct Guide {
+    const float* at_samples;  ///< of each pixel, the mean over its samples
+    const float* at_pixels;   ///< of each pixel, the mean over its area
+    double ridge;             ///< added to the guide's variance in a cell, in its own unit squared
+    /// The number of the target that the guide is an estimate of: then the ridge is in units of the
+    /// variance of a pixel's mean, as far as this guide leaves it over.
+    std::size_t of_target;
+  };
+  static constexpr std::size_t no_target = std::numeric_limits<std::size_t>::max();
+
+  /// \param sums  of each target, those of the picture's samples in each pixel
+  GuidedRegression(const NoisyPicture& picture, std::vector<Guide> guides,
+                   std::vector<const float*> sums);
+
+  /// The prediction of a target for each pixel; where no cell around has a sample, nothing changes.
+  void predict(std::size_t target, std::span<float> pixels) const;
+
+ private:
+  // A cell's sums: weight, pixels with samples, of each target its sum and its residual, of each
+  // term its sum, of each pair of terms and of each term and target the product's.
+  [[nodiscard]] std::size_t first_target() const { return 2; }
+  [[nodiscard]] std::size_t first_residual() const { return first_target() + sums_.size(); }
+  [[nodiscard]] std::size_t first_term() const { return first_residual() + sums_.size(); }
+  [[nodiscard]] std::size_t first_pair() const { return first_term() + terms_; }
+  [[nodiscard]] std::size_t first_product() const {
+    return first_pair() + terms_ * (terms_ + 1) / 2;
+  }
+
+  void collect(std::size_t cell_y, std::span<double> row) const;
+  void fit_all();
+  void fit_cell(std::span<const double> sums, double windows, std::span<float> out);
+
+  const NoisyPicture& picture_;
+  std::vector<Guide> guides_;
+  std::vector<const float*> sums_;
+  std::size_t cells_x_, cells_y_, terms_, moments_, slopes_;
+  std::vector<double> matrix_, right_;
+  // [cell][target]: value at the cell's centre where guides are 0, and the slopes; not a number
+  // without samples.
+  std::vector<float> fits_;
+};
+
+}  // namespace detail
+}  // namespace freqsynth
+
+#if defined(FREQSYNTH_HEADER_ONLY)
+#include "freqsynth/image/guided_regression.inl"
+#endif

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+/// \file
+/// What is left of Monte Carlo noise, smoothed over the whole picture.
+///
+/// Twice the samples are regressed (GuidedRegression) on the finished pixels: first on those of the
+/// blocks' own fits, which know edges that nothing else tells, together with features; then on the
+/// result. These guides are made of the same samples, so their noise agrees with the samples'.
+/// Hence ridges in proportion to the variance that the noise of a pixel's mean has. In between,
+/// steps that noise leaves on borders of blocks are taken back, and so are differences between
+/// blocks that are noise alone.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "freqsynth/basis/config.h"
+#include "freqsynth/image/noisy_picture.h"
+
+namespace freqsynth {
+
+/// Smooths channels of a picture. Where no sample of a channel is negative no pixel is.
+/// \param picture   pixels of `channels` are replaced; those of `features` lose steps on the borders
+///                  of blocks
+/// \param channels  those that have noise
+/// \param features  those that guide the others, and are to have less noise. The time grows with
+///                  the square of their number.
+/// \throws std::invalid_argument when a plane has not the size of the picture, there are not as
+///         many planes of sums as of pixels, or a channel does not exist.
+FREQSYNTH_API void smooth_noise(NoisyPicture& picture, std::span<const std::size_t> channels,
+                                std::span<const std::size_t> features);
+
+}  // namespace freqsynth
+
+#if defined(FREQSYNTH_HEADER_ONLY)
+#include "freqsynth/image/smooth_noise.inl"
+#endif

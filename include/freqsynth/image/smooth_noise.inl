@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "freqsynth/basis/check.h"
+#include "freqsynth/image/block_noise.h"
+#include "freqsynth/image/guided_regression.h"
+#include "freqsynth/image/smooth_noise.h"
+
+namespace freqsynth {
+namespace detail {
+
+/// Standard deviation of a plane's values.
+inline double deviation(std::span<const float> plane) {
+  double mean = 0, square = 0;
+  for (const float value : plane) mean += static_cast<double>(value);
+  mean /= static_cast<double>(plane.size());
+  for (const float value : plane) square += std::pow(static_cast<double>(value) - mean, 2);
+  return std::sqrt(square / static_cast<double>(plane.size()));
+}
+
+inline void check_picture(const NoisyPicture& picture, std::span<const std::size_t> channels) {
+  const std::size_t pixels = picture.width * picture.height;
+  if (picture.width % block_size != 0 || picture.height % block_size != 0) {
+    refuse("the noisy picture has " + std::to_string(picture.width) + " x " +
+           std::to_string(picture.height) + " pixels, not multiples of 8");
+  }
+  bool fits = picture.weights.size() == pixels && picture.sums.size() == picture.pixels.size();
+  for (const auto& plane : picture.sums) fits = fits && plane.size() == pixels;
+  for (const auto& plane : picture.pixels) fits = fits && plane.size() == pixels;
+  if (!fits) refuse("the planes of the noisy picture do not have its size");
+  for (const std::size_t channel : channels) {
+    if (channel < picture.pixels.size()) continue;
+    refuse("the noisy picture has no channel " + std::to_string(channel));
+  }
+}
+
+/// Features as guides. Those that are the same everywhere tell nothing.
+/// \param at_samples  gets what the guides refer to
+inline std::vector<GuidedRegression::Guide> feature_guides(
+    const NoisyPicture& picture, std::span<const std::size_t> features,
+    std::vector<NoisyPicture::Plane>& at_samples) {
+  constexpr double ridge = 0.01;  // of the variance over the picture
+  std::vector<GuidedRegression::Guide> guides;
+  at_samples.reserve(features.size());
+  for (const std::size_t channel : features) {
+    const NoisyPicture::Plane& pixels = picture.pixels[channel];
+    const double spread = deviation(pixels);
+    if (!(spread > 0)) continue;
+    NoisyPicture::Plane& plane = at_samples.emplace_back(pixels);
+    for (std::size_t i = 0; i < plane.size(); ++i) {
+      if (picture.weights[i] > 0) plane[i] = picture.sums[channel][i] / picture.weights[i];
+    }
+    guides.push_back(
+        {plane.data(), pixels.data(), ridge * spread * spread, GuidedRegression::no_target});
+  }
+  return guides;
+}
+
+}  // namespace detail
+
+FREQSYNTH_INLINE void smooth_noise(NoisyPicture& picture, std::span<const std::size_t> channels,
+                                   std::span<const std::size_t> features) {
+  using detail::GuidedRegression;
+  detail::check_picture(picture, channels);
+  detail::check_picture(picture, features);
+  if (picture.weights.empty() || channels.empty()) return;
+
+  // In units of the variance of a pixel's mean: ridges, and what steps on borders may be.
+  struct Pass {
+    double ridge, border;
+  };
+  constexpr Pass passes[] = {{6, 1}, {1.5, 0.3}};
+  constexpr double last_border = 0.1;
+  const auto close_borders = [&](std::size_t channel, double variance) {
+    detail::close_borders(picture, picture.sums[channel], variance, picture.pixels[channel]);
+  };
+
+  std::vector<const float*> sums;
+  for (const std::size_t channel : channels) sums.push_back(picture.sums[channel].data());
+  for (const std::size_t channel : features) close_borders(channel, passes[0].border);
+  std::vector<NoisyPicture::Plane> at_samples;
+  std::vector<GuidedRegression::Guide> guides =
+      detail::feature_guides(picture, features, at_samples);
+  for (const Pass& pass : passes) {
+    for (std::size_t t = 0; t < channels.size(); ++t) {
+      close_borders(channels[t], pass.border);
+      const float* pilot = picture.pixels[channels[t]].data();
+      guides.push_back({pilot, pilot, pass.ridge, t});
+    }
+    const GuidedRegression regression(picture, guides, sums);
+    std::vector<NoisyPicture::Plane> predictions;
+    for (std::size_t t = 0; t < channels.size(); ++t) {
+      regression.predict(t, predictions.emplace_back(picture.pixels[channels[t]]));
+    }
+    for (std::size_t t = 0; t < channels.size(); ++t) {
+      picture.pixels[channels[t]] = std::move(predictions[t]);
+    }
+    guides.clear();
+  }
+  for (const std::size_t channel : channels) {
+    NoisyPicture::Plane& pixels = picture.pixels[channel];
+    detail::pool_levels(picture, picture.sums[channel], pixels);
+    close_borders(channel, last_border);
+    const NoisyPicture::Plane& all = picture.sums[channel];
+    if (*std::min_element(all.begin(), all.end()) < 0) continue;
+    for (float& pixel : pixels) pixel = std::max(0.0f, pixel);
+  }
+}
+
+}  // namespace freqsynth
