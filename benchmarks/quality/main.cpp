@@ -34,11 +34,16 @@ namespace {
 /// Side of the window that is shown side by side, in pixels.
 constexpr std::size_t window_side = 128;
 
+/// References of path-traced scenes have as many times the samples of the others: a few very bright
+/// paths decide how far off they are.
+constexpr std::size_t path_traced_factor = 4;
+
 struct Subject {
   std::string name;
   std::unique_ptr<scenes::Scene> scene;
   baselines::Radiance radiance;
   std::vector<float> reference;
+  std::size_t reference_rate = 0;  // samples per pixel
   double reference_error = 0;
 };
 
@@ -72,7 +77,7 @@ std::vector<Subject> make_subjects(const Options& options) {
   if (names.empty()) names.assign(scenes::scene_names().begin(), scenes::scene_names().end());
   std::vector<Subject> subjects;
   for (const std::string& name : names) {
-    Subject subject{name, nullptr, nullptr, {}, 0};
+    Subject subject{name, nullptr, nullptr, {}, options.reference, 0};
     try {
       subject.scene = scenes::make_scene({.name = name,
                                           .width = static_cast<int>(options.width),
@@ -80,6 +85,7 @@ std::vector<Subject> make_subjects(const Options& options) {
     } catch (const std::invalid_argument& error) {
       throw UsageError(std::string("--scenes: ") + error.what());
     }
+    if (name == "cornell" || name == "spheres") subject.reference_rate *= path_traced_factor;
     subject.radiance = quality::radiance_of(*subject.scene);
     subjects.push_back(std::move(subject));
   }
@@ -127,7 +133,7 @@ void perform(const Options& options, Task& task) {
   result.width = options.width;
   result.height = options.height;
   result.seeds = options.seeds;
-  result.reference_rate = options.reference;
+  result.reference_rate = subject.reference_rate;
   result.reference_error = subject.reference_error;
 
   using quality::Metrics;
@@ -176,9 +182,7 @@ std::size_t measure_all(const Options& options) {
 
   // Progress counts samples: those of references, then those of runs.
   double all = 0;
-  for (std::size_t i = 0; i < subjects.size(); ++i) {
-    all += static_cast<double>(options.reference);
-  }
+  for (const Subject& subject : subjects) all += static_cast<double>(subject.reference_rate);
   std::vector<Task> tasks;
   for (const Subject& subject : subjects) {
     for (const quality::Method* method : methods) {
@@ -203,12 +207,12 @@ std::size_t measure_all(const Options& options) {
   for (Subject& subject : subjects) {
     const quality::Reference reference = quality::cached_reference(
         options.cache, subject.name, subject.radiance, quality::pixel_average_of(*subject.scene),
-        {options.width, options.height, options.reference, 0}, pool, [&](double share) {
-          bar.show((done + share * static_cast<double>(options.reference)) / all);
+        {options.width, options.height, subject.reference_rate, 0}, pool, [&](double share) {
+          bar.show((done + share * static_cast<double>(subject.reference_rate)) / all);
         });
     subject.reference = reference.pixels();
     subject.reference_error = reference.standard_error();
-    done += static_cast<double>(options.reference);
+    done += static_cast<double>(subject.reference_rate);
     if (!options.pictures.empty()) write_reference(options, subject);
   }
 

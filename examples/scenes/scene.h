@@ -95,6 +95,8 @@ struct SceneOptions {
 /// * `softshadow`     solids under a lamp with an area (noisy)
 /// * `dof`            a row of balls, of which a lens has one in focus (noisy)
 /// * `glossy`         balls that are mirrored in a brushed floor (noisy)
+/// * `cornell`        a box with a ball of glass and a small lamp, by a path tracer (noisy)
+/// * `spheres`        balls, some of them moving, before a lens, by a path tracer (noisy)
 /// * `image:FILE`     a picture that OpenImageIO can read, stretched over the image
 ///
 /// Throws std::invalid_argument, naming the value, for an unknown name, a size that is not

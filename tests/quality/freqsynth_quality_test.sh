@@ -80,3 +80,7 @@ cmp <(figures a.csv) <(figures d.csv) || fail "a broken reference was taken"
 ! cmp -s <(figures a.csv) <(figures f.csv) || fail "--seeds changes nothing"
 "$program" --quick --scenes zoneplate --methods freqsynth --spp 1/2 --csv g.csv
 grep -q '^zoneplate,freqsynth,0.5,128,128,1,8192,' g.csv || fail "--quick: $(tail -1 g.csv)"
+
+# Path-traced scenes have references of four times as many samples.
+"$program" "${small[@]}" --scenes cornell --csv h.csv
+[[ $(awk -F, 'NR == 2 { print $17 }' h.csv) == 64 ]] || fail "the reference of cornell: $(tail -1 h.csv)"
