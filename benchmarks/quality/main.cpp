@@ -149,11 +149,10 @@ void perform(const Options& options, Task& task) {
   std::vector<double> errors;
   double least_seconds = std::numeric_limits<double>::infinity();
   for (std::size_t seed = 1; seed <= options.seeds; ++seed) {
-    const quality::Run run =
-        quality::run_method(*task.method, subject.radiance,
-                            {options.width, options.height,
-                             quality::samples_of(task.rate, options.width, options.height), seed,
-                             subject.scene->noisy()});
+    const quality::Run run = quality::run_method(
+        *task.method, subject.radiance,
+        quality::job_of(*subject.scene, options.width, options.height,
+                        quality::samples_of(task.rate, options.width, options.height), seed));
     const Metrics metrics =
         quality::measure({options.width, options.height, run.pixels}, reference, run.samples);
     for (const auto field : fields) result.metrics.*field += metrics.*field / seeds;
@@ -188,6 +187,7 @@ std::size_t measure_all(const Options& options) {
     for (const quality::Method* method : methods) {
       for (const double rate : options.rates) {
         if (rate < method->least_rate) continue;
+        if (method->for_noise && !subject.scene->noisy()) continue;
         tasks.push_back({&subject, method, rate, {}, {}});
         all += rate * static_cast<double>(options.seeds);
       }

@@ -84,3 +84,8 @@ grep -q '^zoneplate,freqsynth,0.5,128,128,1,8192,' g.csv || fail "--quick: $(tai
 # Path-traced scenes have references of four times as many samples.
 "$program" "${small[@]}" --scenes cornell --csv h.csv
 [[ $(awk -F, 'NR == 2 { print $17 }' h.csv) == 64 ]] || fail "the reference of cornell: $(tail -1 h.csv)"
+
+# What is made for noise is measured with noisy scenes alone.
+"$program" "${small[@]}" --scenes fan,glossy --methods nlm,sobol-box --spp 1 --csv i.csv
+[[ $(sed 1d i.csv | cut -d, -f1-2 | xargs) == "fan,sobol-box glossy,nlm glossy,sobol-box" ]] ||
+  fail "unexpected lines: $(cat i.csv)"
