@@ -145,9 +145,12 @@ Rendering feature_regression(const Radiance& radiance, const Job& job,
   }
   const PixelBuffers colours = part(0, 3);
   const auto& [a, b] = colours.half;
-  return picture_of(mean_of(regressed(a, b, colours.variance, features, settings.colours),
-                            regressed(b, a, colours.variance, features, settings.colours)),
-                    sampler);
+  Rendering result =
+      picture_of(mean_of(regressed(a, b, colours.variance, features, settings.colours),
+                         regressed(b, a, colours.variance, features, settings.colours)),
+                 sampler);
+  for (float& value : result.pixels) value = std::max(value, 0.0f);  // a plane may go below
+  return result;
 }
 
 }  // namespace baselines

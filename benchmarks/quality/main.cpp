@@ -22,6 +22,7 @@
 #include "options.h"
 #include "quality/methods.h"
 #include "quality/metrics.h"
+#include "quality/noise_table.h"
 #include "quality/reference.h"
 #include "quality/results.h"
 #include "quality/scene_radiance.h"
@@ -53,7 +54,8 @@ struct Task {
   const quality::Method* method;
   double rate;
   quality::Result result;
-  std::string error;  // empty: none
+  std::string error;               // empty: none
+  std::vector<float> pixels = {};  // of the first run, where they are wanted side by side
 };
 
 void print_list() {
@@ -86,6 +88,7 @@ std::vector<Subject> make_subjects(const Options& options) {
       throw UsageError(std::string("--scenes: ") + error.what());
     }
     if (name == "cornell" || name == "spheres") subject.reference_rate *= path_traced_factor;
+    if (options.noisy && options.scenes.empty() && !subject.scene->noisy()) continue;
     subject.radiance = quality::radiance_of(*subject.scene);
     subjects.push_back(std::move(subject));
   }
@@ -144,7 +147,11 @@ void perform(const Options& options, Task& task) {
                                          &Metrics::worst_block_rmse,
                                          &Metrics::missed_blocks,
                                          &Metrics::seam,
-                                         &Metrics::bad_values};
+                                         &Metrics::bad_values,
+                                         &Metrics::relmse,
+                                         &Metrics::mean_ratio,
+                                         &Metrics::border_step,
+                                         &Metrics::negative_share};
   const auto seeds = static_cast<double>(options.seeds);
   std::vector<double> errors;
   double least_seconds = std::numeric_limits<double>::infinity();
@@ -165,12 +172,46 @@ void perform(const Options& options, Task& task) {
       write_picture(folder_of(options, subject) + "/" + quality::file_name(result.method) + "_" +
                         quality::rate_name(task.rate) + ".png",
                     {options.width, options.height, 3, run.pixels});
+      if (options.noisy) task.pixels = run.pixels;
     }
   }
   result.core_seconds = std::max(0.0, least_seconds - result.sampler_seconds);
   double squares = 0;
   for (const double error : errors) squares += std::pow(error - result.metrics.rmse, 2);
   if (options.seeds > 1) result.rmse_deviation = std::sqrt(squares / (seeds - 1));
+}
+
+/// A picture of each scene: a row for each rate, a column for each method, white where there is
+/// none, and the reference.
+void write_sheets(const Options& options, const std::vector<const quality::Method*>& methods,
+                  const std::vector<Subject>& subjects, const std::vector<Task>& tasks) {
+  for (const Subject& subject : subjects) {
+    std::vector<Picture> pictures;
+    for (const double rate : options.rates) {
+      for (const quality::Method* method : methods) {
+        const auto task = std::find_if(tasks.begin(), tasks.end(), [&](const Task& each) {
+          return each.subject == &subject && each.method == method && each.rate == rate;
+        });
+        const bool made = task != tasks.end() && !task->pixels.empty();
+        pictures.push_back(
+            {options.width, options.height, 3,
+             made ? task->pixels : std::vector<float>(3 * options.width * options.height, 1.0f)});
+      }
+      pictures.push_back({options.width, options.height, 3, subject.reference});
+    }
+    write_picture(folder_of(options, subject) + ".png",
+                  contact_sheet(pictures, methods.size() + 1));
+  }
+}
+
+void print_noise(const Options& options, const std::vector<Subject>& subjects,
+                 const std::vector<quality::Result>& results) {
+  std::fputs(quality::noise_table(results).c_str(), stdout);
+  for (const Subject& subject : subjects) {
+    const quality::PictureView reference{options.width, options.height, subject.reference};
+    std::printf("%s: the reference is off by %.2g, its border is %.3f\n", subject.name.c_str(),
+                subject.reference_error, quality::border_step(reference));
+  }
 }
 
 /// \return the number of failures, which were told
@@ -248,10 +289,12 @@ std::size_t measure_all(const Options& options) {
                  task.error.c_str());
   }
   const std::string csv = quality::to_csv(results);
-  if (options.csv.empty()) {
-    std::fputs(csv.c_str(), stdout);
-  } else {
+  if (options.noisy) print_noise(options, subjects, results);
+  if (options.noisy && !options.pictures.empty()) write_sheets(options, methods, subjects, tasks);
+  if (!options.csv.empty()) {
     write_text(options.csv, csv);
+  } else if (!options.noisy) {
+    std::fputs(csv.c_str(), stdout);
   }
   return failures;
 }
