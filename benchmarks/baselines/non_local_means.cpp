@@ -52,7 +52,8 @@ void for_each_weight(const Buffer& guide, const Buffer& variance,
               guide.values[p * guide.channels + c] - guide.values[q * guide.channels + c];
           sum += (difference * difference - (a + std::min(a, b))) / (1e-10f + square_k * (a + b));
         }
-        distance.values[2 * p] = sum * share;
+        // One pixel that differs by that much is enough for a weight of 0.
+        distance.values[2 * p] = std::min(sum * share, 1e4f);
         distance.values[2 * p + 1] = 1;
       });
       distance = box_mean(distance, settings.patch);

@@ -22,21 +22,6 @@ Buffer combine(const Buffer& a, const Buffer& b, const Function& function) {
   return result;
 }
 
-/// Means over 2 radius + 1 values along lines of `length` values that are `stride` apart.
-void box_mean_along(std::vector<float>& values, std::size_t first, std::size_t length,
-                    std::size_t stride, std::size_t radius, std::vector<double>& sums) {
-  sums.assign(length + 1, 0.0);
-  for (std::size_t i = 0; i < length; ++i) {
-    sums[i + 1] = sums[i] + double{values[first + i * stride]};
-  }
-  for (std::size_t i = 0; i < length; ++i) {
-    const std::size_t begin = i - std::min(i, radius);
-    const std::size_t end = std::min(i + radius + 1, length);
-    values[first + i * stride] =
-        static_cast<float>((sums[end] - sums[begin]) / static_cast<double>(end - begin));
-  }
-}
-
 }  // namespace
 
 Buffer Buffer::part(std::size_t first, std::size_t count) const {
@@ -54,14 +39,35 @@ Buffer mean_of(const Buffer& a, const Buffer& b) {
 
 Buffer box_mean(const Buffer& buffer, std::size_t radius) {
   Buffer result = buffer;
-  const auto& [width, height, channels, values] = buffer;
-  std::vector<double> sums;
-  for (std::size_t i = 0; i < height * channels; ++i) {
-    box_mean_along(result.values, i / channels * width * channels + i % channels, width, channels,
-                   radius, sums);
+  const std::size_t channels = buffer.channels;
+  const std::size_t line = buffer.width * channels;
+  // sums[i + channels] = sums[i] + value i, along a line; then the same of whole lines.
+  std::vector<double> sums(line + channels);
+  for (std::size_t y = 0; y < buffer.height; ++y) {
+    float* const values = &result.values[y * line];
+    for (std::size_t i = 0; i < line; ++i) sums[i + channels] = sums[i] + double{values[i]};
+    for (std::size_t x = 0; x < buffer.width; ++x) {
+      const std::size_t begin = x - std::min(x, radius);
+      const std::size_t end = std::min(x + radius + 1, buffer.width);
+      const double share = 1 / static_cast<double>(end - begin);
+      for (std::size_t c = 0; c < channels; ++c) {
+        values[x * channels + c] =
+            static_cast<float>((sums[end * channels + c] - sums[begin * channels + c]) * share);
+      }
+    }
   }
-  for (std::size_t i = 0; i < width * channels; ++i) {
-    box_mean_along(result.values, i, height, width * channels, radius, sums);
+  sums.assign((buffer.height + 1) * line, 0.0);
+  for (std::size_t i = 0; i < result.values.size(); ++i) {
+    sums[i + line] = sums[i] + double{result.values[i]};
+  }
+  for (std::size_t y = 0; y < buffer.height; ++y) {
+    const std::size_t begin = y - std::min(y, radius);
+    const std::size_t end = std::min(y + radius + 1, buffer.height);
+    const double share = 1 / static_cast<double>(end - begin);
+    for (std::size_t i = 0; i < line; ++i) {
+      result.values[y * line + i] =
+          static_cast<float>((sums[end * line + i] - sums[begin * line + i]) * share);
+    }
   }
   return result;
 }
