@@ -9,8 +9,10 @@
 #include "corner_subdivision.h"
 #include "dippe_wold.h"
 #include "energy_preserving.h"
+#include "feature_regression.h"
 #include "fxaa.h"
 #include "low_discrepancy.h"
+#include "non_local_means.h"
 #ifdef FREQSYNTH_BASELINES_OPENCV
 #include "opencv_fsr.h"
 #endif
@@ -77,6 +79,14 @@ std::vector<Method> make_methods() {
        [=](const Radiance& radiance, const Job& job) {
          return energy_preserving(jittered_box(radiance, job));
        }},
+      {"nlm", "sobol-box, then non-local means with the variance of pixels; for noise",
+       "Rousselle et al. 2012",
+       [](const Radiance& radiance, const Job& job) { return non_local_means(radiance, job); }, 1,
+       true},
+      {"nfor", "sobol-box, then regression on features of surfaces; for noise",
+       "Bitterli et al. 2016",
+       [](const Radiance& radiance, const Job& job) { return feature_regression(radiance, job); },
+       1, true},
 #ifdef FREQSYNTH_BASELINES_OPENCV
       {"opencv-fsr", "below 1 sample per pixel: the other pixels filled in by OpenCV's FSR, fast",
        "Seiler et al. 2015, Genser et al. 2018",

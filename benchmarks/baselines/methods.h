@@ -21,6 +21,8 @@ struct Method {
   /// Least samples per pixel that it is made for. It gives a picture below that, too, down to one
   /// sample in all.
   double least_rate = 0;
+  /// It is made for Monte Carlo estimates, and measured with these alone.
+  bool for_noise = false;
 };
 
 /// All systems.

@@ -17,6 +17,11 @@ namespace baselines {
 /// pixel, the lower 24 count its samples; so every sample of a picture has an id of its own.
 using Radiance = std::function<void(double x, double y, std::uint64_t id, std::span<float, 3> rgb)>;
 
+/// The same for a sampler that knows more of a sample than its radiance: what Job::features counts
+/// comes behind the three values. A call counts as one of the radiance function.
+using FeaturedRadiance =
+    std::function<void(double x, double y, std::uint64_t id, std::span<float> values)>;
+
 /// What to render.
 struct Job {
   std::size_t width = 0;      ///< pixels, at least 1
@@ -26,6 +31,10 @@ struct Job {
   /// The radiance function is a Monte Carlo estimate that depends on the id. A host knows this; a
   /// method may use it.
   bool noisy = false;
+  /// Values of the first surface that a sample meets: its colour (3), its normal (3), and 1 over
+  /// the distance, all 0 where there is none. 0: not known; else 7.
+  std::size_t features = 0;
+  FeaturedRadiance radiance_and_features = {};  ///< for samples with features, where there are any
 };
 
 /// A picture and what it cost.

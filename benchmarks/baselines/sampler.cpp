@@ -43,17 +43,29 @@ Sampler::Sampler(const Radiance& radiance, const Job& job)
   if (job.samples == 0) throw std::invalid_argument("at least one sample must be allowed");
 }
 
-Sample Sampler::take(double x, double y) {
+std::uint64_t Sampler::count(double& x, double& y) {
   if (left() == 0) throw std::logic_error("all samples of the job are taken");
-  Sample sample;
-  sample.x = std::clamp(x, 0.0, static_cast<double>(job_.width));
-  sample.y = std::clamp(y, 0.0, static_cast<double>(job_.height));
-  const std::size_t pixel = pixel_at(sample.x, sample.y, job_.width, job_.height);
-  const std::uint64_t id = ((first_pixel_ + pixel) << 24) + counts_[pixel];
-  radiance_(sample.x, sample.y, id, sample.rgb);
+  x = std::clamp(x, 0.0, static_cast<double>(job_.width));
+  y = std::clamp(y, 0.0, static_cast<double>(job_.height));
+  const std::size_t pixel = pixel_at(x, y, job_.width, job_.height);
   ++taken_;
-  ++counts_[pixel];
+  return ((first_pixel_ + pixel) << 24) + counts_[pixel]++;
+}
+
+Sample Sampler::take(double x, double y) {
+  Sample sample{x, y, {}};
+  const std::uint64_t id = count(sample.x, sample.y);
+  radiance_(sample.x, sample.y, id, sample.rgb);
   return sample;
+}
+
+void Sampler::take_with_features(double x, double y, std::span<float> values) {
+  const std::uint64_t id = count(x, y);
+  if (job_.features == 0) {
+    radiance_(x, y, id, values.first<3>());
+  } else {
+    job_.radiance_and_features(x, y, id, values);
+  }
 }
 
 Sample Sampler::take_in(const Rectangle& area, Random& random) {

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <random>
+#include <span>
 
 #include "rendering.h"
 
@@ -74,6 +75,9 @@ class Sampler {
   /// \throws std::logic_error when left() is 0.
   Sample take(double x, double y);
 
+  /// The same with Job::features behind the radiance. \param values  room for 3 + job.features
+  void take_with_features(double x, double y, std::span<float> values);
+
   /// Takes a sample at a uniformly random position in `area`.
   Sample take_in(const Rectangle& area, Random& random);
 
@@ -84,6 +88,9 @@ class Sampler {
   [[nodiscard]] Rendering rendering() const;
 
  private:
+  /// Moves the position of the next sample onto the image and counts it. \return its id
+  std::uint64_t count(double& x, double& y);
+
   const Radiance& radiance_;
   const Job& job_;
   std::uint64_t first_pixel_;

@@ -22,6 +22,7 @@
 #include "options.h"
 #include "quality/methods.h"
 #include "quality/metrics.h"
+#include "quality/noise_table.h"
 #include "quality/reference.h"
 #include "quality/results.h"
 #include "quality/scene_radiance.h"
@@ -34,11 +35,16 @@ namespace {
 /// Side of the window that is shown side by side, in pixels.
 constexpr std::size_t window_side = 128;
 
+/// References of path-traced scenes have as many times the samples of the others: a few very bright
+/// paths decide how far off they are.
+constexpr std::size_t path_traced_factor = 4;
+
 struct Subject {
   std::string name;
   std::unique_ptr<scenes::Scene> scene;
   baselines::Radiance radiance;
   std::vector<float> reference;
+  std::size_t reference_rate = 0;  // samples per pixel
   double reference_error = 0;
 };
 
@@ -48,7 +54,8 @@ struct Task {
   const quality::Method* method;
   double rate;
   quality::Result result;
-  std::string error;  // empty: none
+  std::string error;               // empty: none
+  std::vector<float> pixels = {};  // of the first run, where they are wanted side by side
 };
 
 void print_list() {
@@ -72,7 +79,7 @@ std::vector<Subject> make_subjects(const Options& options) {
   if (names.empty()) names.assign(scenes::scene_names().begin(), scenes::scene_names().end());
   std::vector<Subject> subjects;
   for (const std::string& name : names) {
-    Subject subject{name, nullptr, nullptr, {}, 0};
+    Subject subject{name, nullptr, nullptr, {}, options.reference, 0};
     try {
       subject.scene = scenes::make_scene({.name = name,
                                           .width = static_cast<int>(options.width),
@@ -80,6 +87,8 @@ std::vector<Subject> make_subjects(const Options& options) {
     } catch (const std::invalid_argument& error) {
       throw UsageError(std::string("--scenes: ") + error.what());
     }
+    if (name == "cornell" || name == "spheres") subject.reference_rate *= path_traced_factor;
+    if (options.noisy && options.scenes.empty() && !subject.scene->noisy()) continue;
     subject.radiance = quality::radiance_of(*subject.scene);
     subjects.push_back(std::move(subject));
   }
@@ -127,7 +136,7 @@ void perform(const Options& options, Task& task) {
   result.width = options.width;
   result.height = options.height;
   result.seeds = options.seeds;
-  result.reference_rate = options.reference;
+  result.reference_rate = subject.reference_rate;
   result.reference_error = subject.reference_error;
 
   using quality::Metrics;
@@ -138,16 +147,19 @@ void perform(const Options& options, Task& task) {
                                          &Metrics::worst_block_rmse,
                                          &Metrics::missed_blocks,
                                          &Metrics::seam,
-                                         &Metrics::bad_values};
+                                         &Metrics::bad_values,
+                                         &Metrics::relmse,
+                                         &Metrics::mean_ratio,
+                                         &Metrics::border_step,
+                                         &Metrics::negative_share};
   const auto seeds = static_cast<double>(options.seeds);
   std::vector<double> errors;
   double least_seconds = std::numeric_limits<double>::infinity();
   for (std::size_t seed = 1; seed <= options.seeds; ++seed) {
-    const quality::Run run =
-        quality::run_method(*task.method, subject.radiance,
-                            {options.width, options.height,
-                             quality::samples_of(task.rate, options.width, options.height), seed,
-                             subject.scene->noisy()});
+    const quality::Run run = quality::run_method(
+        *task.method, subject.radiance,
+        quality::job_of(*subject.scene, options.width, options.height,
+                        quality::samples_of(task.rate, options.width, options.height), seed));
     const Metrics metrics =
         quality::measure({options.width, options.height, run.pixels}, reference, run.samples);
     for (const auto field : fields) result.metrics.*field += metrics.*field / seeds;
@@ -160,12 +172,46 @@ void perform(const Options& options, Task& task) {
       write_picture(folder_of(options, subject) + "/" + quality::file_name(result.method) + "_" +
                         quality::rate_name(task.rate) + ".png",
                     {options.width, options.height, 3, run.pixels});
+      if (options.noisy) task.pixels = run.pixels;
     }
   }
   result.core_seconds = std::max(0.0, least_seconds - result.sampler_seconds);
   double squares = 0;
   for (const double error : errors) squares += std::pow(error - result.metrics.rmse, 2);
   if (options.seeds > 1) result.rmse_deviation = std::sqrt(squares / (seeds - 1));
+}
+
+/// A picture of each scene: a row for each rate, a column for each method, white where there is
+/// none, and the reference.
+void write_sheets(const Options& options, const std::vector<const quality::Method*>& methods,
+                  const std::vector<Subject>& subjects, const std::vector<Task>& tasks) {
+  for (const Subject& subject : subjects) {
+    std::vector<Picture> pictures;
+    for (const double rate : options.rates) {
+      for (const quality::Method* method : methods) {
+        const auto task = std::find_if(tasks.begin(), tasks.end(), [&](const Task& each) {
+          return each.subject == &subject && each.method == method && each.rate == rate;
+        });
+        const bool made = task != tasks.end() && !task->pixels.empty();
+        pictures.push_back(
+            {options.width, options.height, 3,
+             made ? task->pixels : std::vector<float>(3 * options.width * options.height, 1.0f)});
+      }
+      pictures.push_back({options.width, options.height, 3, subject.reference});
+    }
+    write_picture(folder_of(options, subject) + ".png",
+                  contact_sheet(pictures, methods.size() + 1));
+  }
+}
+
+void print_noise(const Options& options, const std::vector<Subject>& subjects,
+                 const std::vector<quality::Result>& results) {
+  std::fputs(quality::noise_table(results).c_str(), stdout);
+  for (const Subject& subject : subjects) {
+    const quality::PictureView reference{options.width, options.height, subject.reference};
+    std::printf("%s: the reference is off by %.2g, its border is %.3f\n", subject.name.c_str(),
+                subject.reference_error, quality::border_step(reference));
+  }
 }
 
 /// \return the number of failures, which were told
@@ -176,14 +222,13 @@ std::size_t measure_all(const Options& options) {
 
   // Progress counts samples: those of references, then those of runs.
   double all = 0;
-  for (std::size_t i = 0; i < subjects.size(); ++i) {
-    all += static_cast<double>(options.reference);
-  }
+  for (const Subject& subject : subjects) all += static_cast<double>(subject.reference_rate);
   std::vector<Task> tasks;
   for (const Subject& subject : subjects) {
     for (const quality::Method* method : methods) {
       for (const double rate : options.rates) {
         if (rate < method->least_rate) continue;
+        if (method->for_noise && !subject.scene->noisy()) continue;
         tasks.push_back({&subject, method, rate, {}, {}});
         all += rate * static_cast<double>(options.seeds);
       }
@@ -203,12 +248,12 @@ std::size_t measure_all(const Options& options) {
   for (Subject& subject : subjects) {
     const quality::Reference reference = quality::cached_reference(
         options.cache, subject.name, subject.radiance, quality::pixel_average_of(*subject.scene),
-        {options.width, options.height, options.reference, 0}, pool, [&](double share) {
-          bar.show((done + share * static_cast<double>(options.reference)) / all);
+        {options.width, options.height, subject.reference_rate, 0}, pool, [&](double share) {
+          bar.show((done + share * static_cast<double>(subject.reference_rate)) / all);
         });
     subject.reference = reference.pixels();
     subject.reference_error = reference.standard_error();
-    done += static_cast<double>(options.reference);
+    done += static_cast<double>(subject.reference_rate);
     if (!options.pictures.empty()) write_reference(options, subject);
   }
 
@@ -244,10 +289,12 @@ std::size_t measure_all(const Options& options) {
                  task.error.c_str());
   }
   const std::string csv = quality::to_csv(results);
-  if (options.csv.empty()) {
-    std::fputs(csv.c_str(), stdout);
-  } else {
+  if (options.noisy) print_noise(options, subjects, results);
+  if (options.noisy && !options.pictures.empty()) write_sheets(options, methods, subjects, tasks);
+  if (!options.csv.empty()) {
     write_text(options.csv, csv);
+  } else if (!options.noisy) {
+    std::fputs(csv.c_str(), stdout);
   }
   return failures;
 }

@@ -26,13 +26,19 @@ double thread_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-enum class Estimate { finished, paper };
+enum class Estimate { finished, plain, paper };
 
 baselines::Rendering synthesize(const baselines::Radiance& radiance, const baselines::Job& job,
                                 Estimate estimate) {
+  // Features ride along where they may be of use.
+  const std::size_t features = estimate == Estimate::finished ? job.features : 0;
+  const std::size_t channels = 3 + features;
   freqsynth::SynthesisSettings settings;
   settings.width = job.width;
   settings.height = job.height;
+  settings.channels = channels;
+  settings.channel_weights.assign(channels, 0.0f);
+  std::fill_n(settings.channel_weights.begin(), 3, 1.0f);
   settings.list.seed = job.seed;
   settings.noisy = job.noisy;
   if (estimate == Estimate::paper) {
@@ -47,14 +53,24 @@ baselines::Rendering synthesize(const baselines::Radiance& radiance, const basel
   const auto sampler = [&](std::span<const freqsynth::Request> requests, std::span<float> values) {
     for (std::size_t i = 0; i < requests.size(); ++i) {
       const freqsynth::Request& request = requests[i];
-      radiance(request.x, request.y, id_of(request, job.seed), values.subspan(3 * i).first<3>());
+      const std::uint64_t id = id_of(request, job.seed);
+      const std::span<float> out = values.subspan(channels * i, channels);
+      if (features == 0) {
+        radiance(request.x, request.y, id, out.first<3>());
+      } else {
+        job.radiance_and_features(request.x, request.y, id, out);
+      }
       ++result.samples[request.pixel];
     }
   };
   engine.run(sampler, {.samples = job.samples});
-  result.pixels = freqsynth::reconstruct(
-      estimate == Estimate::finished ? engine.finished_image() : engine.image(),
-      {.clamp_negative = true});
+  // The place for a finish that uses features: Estimate::finished of a noisy job.
+  const std::vector<float> pixels =
+      freqsynth::reconstruct(estimate == Estimate::paper ? engine.image() : engine.finished_image(),
+                             {.clamp_negative = !job.noisy});
+  for (std::size_t i = 0; i < pixels.size(); i += channels) {
+    result.pixels.insert(result.pixels.end(), &pixels[i], &pixels[i] + 3);
+  }
   return result;
 }
 
@@ -62,18 +78,17 @@ std::vector<Method> all_methods() {
   // One sample in each block is the least that shows the whole picture.
   constexpr double one_per_block = 1.0 / 64;
   std::vector<Method> all;
-  all.push_back({"freqsynth", "this library: the fit and its residuals, finished pixels",
-                 "Bolin 1995",
-                 [](const baselines::Radiance& radiance, const baselines::Job& job) {
-                   return synthesize(radiance, job, Estimate::finished);
-                 },
-                 one_per_block});
-  all.push_back({"freqsynth-paper", "the paper's estimate: the fit alone, Butterworth, pixel means",
-                 "Bolin 1995",
-                 [](const baselines::Radiance& radiance, const baselines::Job& job) {
-                   return synthesize(radiance, job, Estimate::paper);
-                 },
-                 one_per_block});
+  const auto add = [&](const char* name, const char* description, Estimate estimate) {
+    all.push_back({name, description, "Bolin 1995",
+                   [=](const baselines::Radiance& radiance, const baselines::Job& job) {
+                     return synthesize(radiance, job, estimate);
+                   },
+                   one_per_block, estimate == Estimate::plain});
+  };
+  add("freqsynth", "this library: the fit and its residuals, finished pixels", Estimate::finished);
+  add("freqsynth-plain", "the same, finished without features; for noise", Estimate::plain);
+  add("freqsynth-paper", "the paper's estimate: the fit alone, Butterworth, pixel means",
+      Estimate::paper);
   all.insert(all.end(), baselines::methods().begin(), baselines::methods().end());
   return all;
 }
@@ -89,11 +104,11 @@ class Meter {
     kept_.reserve(static_cast<std::size_t>(job.samples / stride_ + 1));
   }
 
-  void operator()(double x, double y, std::uint64_t id, std::span<float, 3> rgb) {
-    radiance_(x, y, id, rgb);
+  void operator()(double x, double y, std::uint64_t id, std::span<float> values) {
+    call({x, y, id, values.size() != 3}, values);
     const bool inside = x >= 0 && y >= 0 && x <= static_cast<double>(job_.width) &&
                         y <= static_cast<double>(job_.height);
-    if (calls_++ % stride_ == 0) kept_.push_back({x, y, id});
+    if (calls_++ % stride_ == 0) kept_.push_back({x, y, id, values.size() != 3});
     if (!inside) {
       ++outside_;
       return;
@@ -110,11 +125,11 @@ class Meter {
   /// See Run::sampler_seconds.
   [[nodiscard]] double sampler_seconds() const {
     if (kept_.empty()) return 0;
-    std::array<float, 3> rgb{};
+    std::vector<float> values(3 + job_.features);
     double least = std::numeric_limits<double>::infinity();
     for (int i = 0; i < 2; ++i) {
       const double begin = thread_seconds();
-      for (const Call& call : kept_) radiance_(call.x, call.y, call.id, rgb);
+      for (const Call& each : kept_) call(each, values);
       least = std::min(least, thread_seconds() - begin);
     }
     return least * static_cast<double>(calls_) / static_cast<double>(kept_.size());
@@ -125,7 +140,16 @@ class Meter {
   struct Call {
     double x, y;
     std::uint64_t id;
+    bool featured;
   };
+
+  void call(const Call& call, std::span<float> values) const {
+    if (call.featured) {
+      job_.radiance_and_features(call.x, call.y, call.id, values);
+    } else {
+      radiance_(call.x, call.y, call.id, values.first<3>());
+    }
+  }
 
   const baselines::Radiance& radiance_;
   const baselines::Job& job_;
@@ -148,8 +172,10 @@ const Method& find_method(std::string_view name) { return baselines::find_method
 Run run_method(const Method& method, const baselines::Radiance& radiance,
                const baselines::Job& job) {
   Meter meter(radiance, job);
+  baselines::Job metered = job;
+  if (job.features != 0) metered.radiance_and_features = std::ref(meter);
   const double begin = thread_seconds();
-  baselines::Rendering rendering = method.render(std::ref(meter), job);
+  baselines::Rendering rendering = method.render(std::ref(meter), metered);
   const double seconds = thread_seconds() - begin;
 
   const auto refuse = [&](const std::string& what) {

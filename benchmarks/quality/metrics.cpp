@@ -106,6 +106,33 @@ std::size_t block_count(const PictureView& picture) {
          ((picture.height + block_size - 1) / block_size);
 }
 
+/// The mean of |value(i) - value(j)| over neighbouring values i and j on both sides of a border
+/// between two blocks, divided by the mean over neighbours within a block.
+template <class Value>
+double border_ratio(const PictureView& picture, const Value& value) {
+  struct Mean {
+    double sum = 0, count = 0;
+    double value() const { return count == 0 ? 0 : sum / count; }
+  };
+  Mean across, within;
+  const auto add = [&](std::size_t pixel, std::size_t earlier, bool border) {
+    Mean& mean = border ? across : within;
+    for (std::size_t c = 0; c < 3; ++c) {
+      mean.sum += std::abs(value(3 * pixel + c) - value(3 * earlier + c));
+      mean.count += 1;
+    }
+  };
+  for (std::size_t y = 0; y < picture.height; ++y) {
+    for (std::size_t x = 0; x < picture.width; ++x) {
+      const std::size_t pixel = y * picture.width + x;
+      if (x != 0) add(pixel, pixel - 1, x % block_size == 0);
+      if (y != 0) add(pixel, pixel - picture.width, y % block_size == 0);
+    }
+  }
+  if (across.count == 0 || (across.value() == 0 && within.value() == 0)) return 1;
+  return across.value() / within.value();
+}
+
 }  // namespace
 
 double rmse(const PictureView& picture, const PictureView& reference) {
@@ -199,30 +226,33 @@ std::size_t missed_blocks(const PictureView& picture, const PictureView& referen
 
 double seam_visibility(const PictureView& picture, const PictureView& reference) {
   check(picture, reference);
-  struct Mean {
-    double sum = 0, count = 0;
-    double value() const { return count == 0 ? 0 : sum / count; }
-  };
-  Mean across, within;
-  const auto error = [&](std::size_t i) {
+  return border_ratio(picture, [&](std::size_t i) {
     return double{picture.pixels[i]} - double{reference.pixels[i]};
-  };
-  const auto add = [&](std::size_t pixel, std::size_t earlier, bool border) {
-    Mean& mean = border ? across : within;
-    for (std::size_t c = 0; c < 3; ++c) {
-      mean.sum += std::abs(error(3 * pixel + c) - error(3 * earlier + c));
-      mean.count += 1;
-    }
-  };
-  for (std::size_t y = 0; y < picture.height; ++y) {
-    for (std::size_t x = 0; x < picture.width; ++x) {
-      const std::size_t pixel = y * picture.width + x;
-      if (x != 0) add(pixel, pixel - 1, x % block_size == 0);
-      if (y != 0) add(pixel, pixel - picture.width, y % block_size == 0);
-    }
-  }
-  if (across.count == 0 || (across.value() == 0 && within.value() == 0)) return 1;
-  return across.value() / within.value();
+  });
+}
+
+double relmse(const PictureView& picture, const PictureView& reference) {
+  return mean_of(picture, reference, [](float value, float wanted) {
+    const double error = double{value} - double{wanted};
+    return error * error / (double{wanted} * double{wanted} + 0.01);
+  });
+}
+
+double mean_ratio(const PictureView& picture, const PictureView& reference) {
+  const double is = mean_of(picture, reference, [](float value, float) { return double{value}; });
+  const double wanted = mean_of(picture, reference, [](float, float r) { return double{r}; });
+  return is == wanted ? 1 : is / wanted;
+}
+
+double border_step(const PictureView& picture) {
+  check(picture, picture);
+  std::vector<double> encoded(picture.pixels.size());
+  std::transform(picture.pixels.begin(), picture.pixels.end(), encoded.begin(), display_encoded);
+  return border_ratio(picture, [&](std::size_t i) { return encoded[i]; });
+}
+
+double negative_share(const PictureView& picture) {
+  return mean_of(picture, picture, [](float value, float) { return value < 0 ? 1.0 : 0.0; });
 }
 
 Metrics measure(const PictureView& picture, const PictureView& reference,
@@ -248,6 +278,10 @@ Metrics measure(const PictureView& picture, const PictureView& reference,
   result.worst_block_rmse = *std::max_element(blocks.begin(), blocks.end());
   result.missed_blocks = static_cast<double>(missed_blocks(usable, reference, samples));
   result.seam = seam_visibility(usable, reference);
+  result.relmse = relmse(usable, reference);
+  result.mean_ratio = mean_ratio(usable, reference);
+  result.border_step = border_step(usable);
+  result.negative_share = negative_share(usable);
   return result;
 }
 

@@ -39,6 +39,10 @@ struct Metrics {
   double missed_blocks = 0;     ///< see missed_blocks()
   double seam = 0;              ///< see seam_visibility()
   double bad_values = 0;        ///< values of the picture that were not finite, taken for 0
+  double relmse = 0;            ///< see relmse()
+  double mean_ratio = 0;        ///< see mean_ratio()
+  double border_step = 0;       ///< see border_step()
+  double negative_share = 0;    ///< see negative_share()
 };
 
 // All of these throw std::invalid_argument naming the sizes when the two pictures differ in size,
@@ -79,6 +83,21 @@ struct Metrics {
 /// seam. Below 1: errors agree across borders better than elsewhere. 1 as well when the error is
 /// the same everywhere or there is no border; infinite when it changes at borders only.
 [[nodiscard]] double seam_visibility(const PictureView& picture, const PictureView& reference);
+
+/// Mean of (v - r)^2 / (r^2 + 0.01): the relative error that denoisers are compared by (Rousselle,
+/// Knaus and Zwicker 2011). >= 0.
+[[nodiscard]] double relmse(const PictureView& picture, const PictureView& reference);
+
+/// The mean of the picture's values over that of the reference: below 1 light is lost. 1 when both
+/// are 0.
+[[nodiscard]] double mean_ratio(const PictureView& picture, const PictureView& reference);
+
+/// How visible the borders of blocks are in the picture itself: as seam_visibility(), with
+/// display-encoded values as in psnr() in place of errors. 1 in a gradient.
+[[nodiscard]] double border_step(const PictureView& picture);
+
+/// The share of values below 0.
+[[nodiscard]] double negative_share(const PictureView& picture);
 
 /// All of them.
 /// \param samples  taken in each pixel, row by row

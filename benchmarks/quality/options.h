@@ -20,6 +20,7 @@ struct Options {
   std::string csv;               // empty: standard output
   std::string pictures;          // a folder; empty: not wanted
   bool list = false;
+  bool noisy = false;  // a table of the noisy scenes instead of the results
 };
 
 /// One line that shows what is always needed: nothing.

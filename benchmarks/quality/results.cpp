@@ -31,17 +31,32 @@ std::string to_csv(std::span<const Result> results) {
   std::string text =
       "scene,method,spp,width,height,seeds,samples,rmse,rmse_deviation,psnr,relative_mse,ssim,"
       "worst_block_rmse,missed_blocks,seam,bad_values,reference_spp,reference_error,"
-      "core_seconds,sampler_seconds\n";
+      "relmse,mean_ratio,border_step,negative_share,core_seconds,sampler_seconds\n";
   for (const Result& result : results) {
     text.append(quoted(result.scene)).append(",").append(quoted(result.method));
     const Metrics& metrics = result.metrics;
-    for (const double value :
-         {result.rate, static_cast<double>(result.width), static_cast<double>(result.height),
-          static_cast<double>(result.seeds), result.samples, metrics.rmse, result.rmse_deviation,
-          metrics.psnr, metrics.relative_mse, metrics.ssim, metrics.worst_block_rmse,
-          metrics.missed_blocks, metrics.seam, metrics.bad_values,
-          static_cast<double>(result.reference_rate), result.reference_error, result.core_seconds,
-          result.sampler_seconds}) {
+    for (const double value : {result.rate,
+                               static_cast<double>(result.width),
+                               static_cast<double>(result.height),
+                               static_cast<double>(result.seeds),
+                               result.samples,
+                               metrics.rmse,
+                               result.rmse_deviation,
+                               metrics.psnr,
+                               metrics.relative_mse,
+                               metrics.ssim,
+                               metrics.worst_block_rmse,
+                               metrics.missed_blocks,
+                               metrics.seam,
+                               metrics.bad_values,
+                               static_cast<double>(result.reference_rate),
+                               result.reference_error,
+                               metrics.relmse,
+                               metrics.mean_ratio,
+                               metrics.border_step,
+                               metrics.negative_share,
+                               result.core_seconds,
+                               result.sampler_seconds}) {
       text.append(",").append(number(value));
     }
     text += '\n';

@@ -12,7 +12,7 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 out=$root/out/quality
 settings=(--size 256x256 --seeds 3 --reference 1024)
 rates=1/16,1/8,1/4,1/2,1,2,4
-# freqsynth and the yardsticks are measured further, to tell whether it stays better, and the
+# freqsynth, the yardsticks and what is made for noise are measured further, to tell whether it stays better, and the
 # yardsticks further still, to tell how many of their samples are as good.
 more_rates=8,16
 most_rates=32,64
@@ -47,8 +47,8 @@ for scene in "${scenes[@]}"; do
   part=$(part_of "$scene")
   run=("$program" --scenes "$scene" "${settings[@]}" --cache "$out/references")
   "${run[@]}" --spp "$rates" --pictures "$out/pictures" --csv "$part.csv"
-  "${run[@]}" --spp "$more_rates" --methods freqsynth,jittered-box,rotated-grid \
-    --csv "$part.more.csv"
+  "${run[@]}" --spp "$more_rates" --csv "$part.more.csv" \
+    --methods freqsynth,freqsynth-plain,jittered-box,rotated-grid,sobol-box,nlm,nfor
   "${run[@]}" --spp "$most_rates" --methods jittered-box,rotated-grid --csv "$part.most.csv"
 done
 # All parts that there are, in the order of the list, under one line of names.

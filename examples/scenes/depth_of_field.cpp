@@ -30,7 +30,7 @@ SolidWorld make_world() {
 DepthOfField::DepthOfField(int width, int height, std::uint64_t seed)
     : NoisyWorld(make_world(), Camera(kEye, kTarget, kHalfField, width, height), seed) {}
 
-void DepthOfField::radiance(double x, double y, std::uint64_t id, std::span<float, 3> rgb) const {
+NoisyWorld::View DepthOfField::look(double x, double y, std::uint64_t id) const {
   // All rays of a pixel position meet in the plane that is in focus.
   const Vec3 meeting = camera_.eye() + kFocalDistance * camera_.direction(x, y);
 
@@ -39,7 +39,9 @@ void DepthOfField::radiance(double x, double y, std::uint64_t id, std::span<floa
   const double angle = 2.0 * std::numbers::pi * chance(1);
   const Vec3 on_lens = camera_.eye() + radius * std::cos(angle) * camera_.right() +
                        radius * std::sin(angle) * camera_.up();
-  store(world_.in_daylight({on_lens, normalize(meeting - on_lens)}), rgb);
+  const Ray ray{on_lens, normalize(meeting - on_lens)};
+  const auto surface = world_.find(ray);
+  return {world_.in_daylight(ray, surface), surface};
 }
 
 }  // namespace scenes

@@ -45,14 +45,11 @@ Vec3 random_about(const Vec3& axis, double exponent, const freqsynth::OwenSobol&
 Glossy::Glossy(int width, int height, std::uint64_t seed)
     : NoisyWorld(make_world(), Camera(kEye, kTarget, kHalfField, width, height), seed) {}
 
-void Glossy::radiance(double x, double y, std::uint64_t id, std::span<float, 3> rgb) const {
+NoisyWorld::View Glossy::look(double x, double y, std::uint64_t id) const {
   const Ray ray = camera_.ray(x, y);
   const auto surface = world_.find(ray);
   const Vec3 scattered = world_.in_daylight(ray, surface);
-  if (!surface) {
-    store(scattered, rgb);
-    return;
-  }
+  if (!surface) return {scattered, surface};
   const Vec3& normal = surface->normal;
   const Finish& finish = surface->is_floor ? kFloor : kSolid;
   const double cosine = std::clamp(-dot(normal, ray.direction), 0.0, 1.0);
@@ -66,7 +63,7 @@ void Glossy::radiance(double x, double y, std::uint64_t id, std::span<float, 3> 
   // Schlick (1994).
   const double mirrored = finish.straight + (1.0 - finish.straight) * std::pow(1.0 - cosine, 5.0);
   const Vec3 reflected = world_.in_daylight({surface->point, direction});
-  store(mix(scattered, reflected, mirrored), rgb);
+  return {mix(scattered, reflected, mirrored), surface};
 }
 
 }  // namespace scenes

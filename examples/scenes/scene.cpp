@@ -14,6 +14,7 @@
 #include "gradient.h"
 #include "image_scene.h"
 #include "lit_corner.h"
+#include "path_traced.h"
 #include "soft_shadow.h"
 #include "star.h"
 #include "sun.h"
@@ -22,9 +23,9 @@
 namespace scenes {
 namespace {
 
-constexpr std::array<std::string_view, 14> kNames = {
-    "fan", "chess",  "zoneplate", "zoneplate-high", "star", "edge",  "checker", "gradient",
-    "dot", "corner", "sun",       "softshadow",     "dof",  "glossy"};
+constexpr std::array<std::string_view, 16> kNames = {
+    "fan", "chess",  "zoneplate", "zoneplate-high", "star", "edge",   "checker", "gradient",
+    "dot", "corner", "sun",       "softshadow",     "dof",  "glossy", "cornell", "spheres"};
 constexpr double kHighZoneFrequency = 0.8;  // cycles per pixel; 0.5 is the limit
 constexpr std::string_view kImagePrefix = "image:";
 
@@ -62,6 +63,9 @@ std::unique_ptr<Scene> make_scene(const SceneOptions& options) {
   if (name == "softshadow") return std::make_unique<SoftShadow>(width, height, seed);
   if (name == "dof") return std::make_unique<DepthOfField>(width, height, seed);
   if (name == "glossy") return std::make_unique<Glossy>(width, height, seed);
+  if (name == "cornell" || name == "spheres") {
+    return std::make_unique<PathTraced>(name, width, height, seed);
+  }
   if (name.starts_with(kImagePrefix) && name.size() > kImagePrefix.size()) {
     return std::make_unique<ImageScene>(name.substr(kImagePrefix.size()), width, height);
   }

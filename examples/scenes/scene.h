@@ -3,6 +3,7 @@
 /// The interface of the scenes and how to get one.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -19,6 +20,9 @@ namespace scenes {
 [[nodiscard]] constexpr std::uint64_t sample_id(std::uint64_t sequence, std::uint64_t ordinal) {
   return (sequence << 24) + ordinal;
 }
+
+/// Features of a surface: colour, normal and nearness.
+inline constexpr std::size_t feature_count = 7;
 
 /// A radiance function over an image of a fixed size.
 class Scene {
@@ -39,6 +43,19 @@ class Scene {
 
   /// Whether radiance() is a Monte Carlo estimate, whose value depends on the sample's id.
   [[nodiscard]] virtual bool noisy() const { return false; }
+
+  /// Number of features that the scene tells of what a sample meets first: feature_count in noisy
+  /// scenes of solids, otherwise 0.
+  [[nodiscard]] virtual std::size_t features() const { return 0; }
+
+  /// Stores what radiance() does, and behind it features() values of the first surface on the same
+  /// way: its colour (3), the share of light that it scatters; its normal (3), of unit length, on
+  /// the side of the ray; its nearness, 1 over the distance. All are finite, and 0 where there is
+  /// no surface. `values` has room for 3 + features().
+  virtual void radiance_and_features(double x, double y, std::uint64_t id,
+                                     std::span<float> values) const {
+    radiance(x, y, id, values.first<3>());
+  }
 
   /// Stores the mean radiance over the area of pixel (i, j) in `rgb` and returns true where it is
   /// known in closed form, or by a quadrature with an error below 1e-8, and then rounded. Otherwise
@@ -78,6 +95,8 @@ struct SceneOptions {
 /// * `softshadow`     solids under a lamp with an area (noisy)
 /// * `dof`            a row of balls, of which a lens has one in focus (noisy)
 /// * `glossy`         balls that are mirrored in a brushed floor (noisy)
+/// * `cornell`        a box with a ball of glass and a small lamp, by a path tracer (noisy)
+/// * `spheres`        balls, some of them moving, before a lens, by a path tracer (noisy)
 /// * `image:FILE`     a picture that OpenImageIO can read, stretched over the image
 ///
 /// Throws std::invalid_argument, naming the value, for an unknown name, a size that is not

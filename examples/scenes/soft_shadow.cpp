@@ -32,12 +32,9 @@ SolidWorld make_world() {
 SoftShadow::SoftShadow(int width, int height, std::uint64_t seed)
     : NoisyWorld(make_world(), Camera(kEye, kTarget, kHalfField, width, height), seed) {}
 
-void SoftShadow::radiance(double x, double y, std::uint64_t id, std::span<float, 3> rgb) const {
+NoisyWorld::View SoftShadow::look(double x, double y, std::uint64_t id) const {
   const auto surface = world_.find(camera_.ray(x, y));
-  if (!surface) {
-    store(kAmbient, rgb);
-    return;
-  }
+  if (!surface) return {kAmbient, surface};
   const freqsynth::OwenSobol chance = decision(id);
   const double across = kLampSide * (chance(0) - 0.5);
   const double along = kLampSide * (chance(1) - 0.5);
@@ -53,7 +50,7 @@ void SoftShadow::radiance(double x, double y, std::uint64_t id, std::span<float,
     const double share = area * at_surface * at_lamp / (std::numbers::pi * distance * distance);
     light = light + share * kLampRadiance;
   }
-  store(surface->color * light, rgb);
+  return {surface->color * light, surface};
 }
 
 }  // namespace scenes

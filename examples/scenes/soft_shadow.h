@@ -14,7 +14,8 @@ class SoftShadow final : public NoisyWorld {
   /// `width` and `height` in pixels, both > 0; any seed.
   SoftShadow(int width, int height, std::uint64_t seed);
 
-  void radiance(double x, double y, std::uint64_t id, std::span<float, 3> rgb) const override;
+ private:
+  [[nodiscard]] View look(double x, double y, std::uint64_t id) const override;
 };
 
 }  // namespace scenes

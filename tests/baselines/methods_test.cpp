@@ -48,7 +48,7 @@ TEST(Methods, HaveTheNamesThatOthersRelyOn) {
   for (const char* name : {"uniform-box", "jittered-box", "rotated-grid", "sobol-box",
                            "jittered-tent", "jittered-gaussian", "jittered-mitchell", "whitted",
                            "two-level-box", "two-level-multistage", "painter-sloan", "dippe-wold",
-                           "jittered-alpha-trimmed", "jittered-energy-preserving"}) {
+                           "jittered-alpha-trimmed", "jittered-energy-preserving", "nlm", "nfor"}) {
     EXPECT_TRUE(distinct.contains(name)) << name;
   }
 }

@@ -3,8 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cstdint>
 #include <map>
+#include <span>
 #include <stdexcept>
+#include <vector>
 
 #include "baseline_helpers.h"
 
@@ -111,6 +116,32 @@ TEST(Sampler, TakesNoMoreThanAllowed) {
   EXPECT_EQ(sampler.left(), 0U);
   EXPECT_THROW(sampler.take(0, 0), std::logic_error);
   EXPECT_EQ(sampler.rendering().samples, (std::vector<std::uint32_t>{1, 0, 0, 1}));
+}
+
+TEST(Sampler, SamplesWithFeaturesAreNamedAndCountedAsTheOthers) {
+  std::vector<std::uint64_t> ids, featured_ids;
+  const Radiance radiance = [&](double, double, std::uint64_t id, std::span<float, 3> rgb) {
+    ids.push_back(id);
+    std::fill(rgb.begin(), rgb.end(), 0.5f);
+  };
+  Job job{3, 2, 3, 9};
+  std::array<float, 10> values{};
+  const auto take_all = [&] {
+    Sampler sampler(radiance, job);
+    for (const double x : {0.5, 2.5, 2.25}) sampler.take_with_features(x, 1.5, values);
+    EXPECT_EQ(sampler.rendering().samples, (std::vector<std::uint32_t>{0, 0, 0, 1, 0, 2}));
+    EXPECT_THROW(sampler.take_with_features(1, 1, values), std::logic_error);
+  };
+  take_all();
+  EXPECT_EQ(values, (std::array<float, 10>{0.5f, 0.5f, 0.5f})) << "no features are known";
+  job.features = 7;
+  job.radiance_and_features = [&](double, double, std::uint64_t id, std::span<float> all) {
+    featured_ids.push_back(id);
+    std::fill(all.begin(), all.end(), 0.25f);
+  };
+  take_all();
+  EXPECT_EQ(values.back(), 0.25f);
+  EXPECT_EQ(ids, featured_ids);
 }
 
 TEST(Random, IsUniformAndTheSameEverywhere) {

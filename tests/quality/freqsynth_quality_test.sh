@@ -80,3 +80,23 @@ cmp <(figures a.csv) <(figures d.csv) || fail "a broken reference was taken"
 ! cmp -s <(figures a.csv) <(figures f.csv) || fail "--seeds changes nothing"
 "$program" --quick --scenes zoneplate --methods freqsynth --spp 1/2 --csv g.csv
 grep -q '^zoneplate,freqsynth,0.5,128,128,1,8192,' g.csv || fail "--quick: $(tail -1 g.csv)"
+
+# Path-traced scenes have references of four times as many samples.
+"$program" "${small[@]}" --scenes cornell --csv h.csv
+[[ $(awk -F, 'NR == 2 { print $17 }' h.csv) == 64 ]] || fail "the reference of cornell: $(tail -1 h.csv)"
+
+# What is made for noise is measured with noisy scenes alone.
+"$program" "${small[@]}" --scenes fan,glossy --methods nlm,sobol-box --spp 1 --csv i.csv
+[[ $(sed 1d i.csv | cut -d, -f1-2 | xargs) == "fan,sobol-box glossy,nlm glossy,sobol-box" ]] ||
+  fail "unexpected lines: $(cat i.csv)"
+
+# The table of noise, and pictures side by side: five methods and the reference, at two rates.
+"$program" --noisy --spp 1/2,1 --size 40x32 --reference 4 --pictures sheets >j
+for scene in softshadow dof glossy cornell spheres; do
+  grep -qE "^\\| $scene +\\| +1 \\| nfor " j || fail "--noisy has no $scene: $(cat j)"
+  grep -q "^$scene: the reference is off by " j || fail "--noisy says nothing of the reference"
+done
+[[ $(grep -c '^| [a-z]* *| ' j) -eq $((1 + 6 * 8)) ]] || fail "--noisy: $(cat j)"
+# 6 columns of 40 pixels and 2 rows of 32, with gaps of 2: big-endian, from byte 16 on.
+size=$(od -An -tu1 -j16 -N8 sheets/dof.png | xargs)
+[[ $size == "0 0 0 254 0 0 0 70" ]] || fail "the sheet has another size: $size"

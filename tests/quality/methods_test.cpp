@@ -179,6 +179,31 @@ TEST(RunMethod, TheTimeOfTheSamplerIsTakenAtTheMethodsOwnPositions) {
   }
 }
 
+TEST(RunMethod, SamplesWithFeaturesCountAsTheOthersDo) {
+  for (const quality::Method& method : quality::methods()) {
+    std::uint64_t plain = 0, featured = 0;
+    Job job{32, 24, 4 * 32 * 24, 7, true, 7, {}};
+    job.radiance_and_features = [&](double x, double y, std::uint64_t id, std::span<float> values) {
+      ASSERT_EQ(values.size(), 10u);
+      ++featured;
+      slope(x, y, id, values.first<3>());
+      std::fill(values.begin() + 3, values.end(), 0.5f);
+    };
+    const quality::Run run = quality::run_method(
+        method,
+        [&](double x, double y, std::uint64_t id, std::span<float, 3> rgb) {
+          ++plain;
+          slope(x, y, id, rgb);
+        },
+        job);
+    const bool uses_features = method.name == "freqsynth" || method.name == "nfor";
+    // All are called twice more to take the time.
+    EXPECT_EQ(featured, uses_features ? 3 * run.calls : 0) << method.name;
+    EXPECT_EQ(plain, uses_features ? 0 : 3 * run.calls) << method.name;
+    ASSERT_EQ(run.pixels.size(), 3 * job.width * job.height) << method.name;
+  }
+}
+
 TEST(SamplesOf, RoundsAndIsNeverZero) {
   EXPECT_EQ(quality::samples_of(1.0 / 16, 256, 256), 4096u);
   EXPECT_EQ(quality::samples_of(4, 10, 10), 400u);

@@ -62,6 +62,43 @@ TEST(Metrics, RelativeMseOfAKnownError) {
   EXPECT_NEAR(quality::relative_mse(Picture(4, 4, 0.02f), Picture(4, 4, 0)), 4, 1e-6);
 }
 
+TEST(Metrics, RelmseOfAKnownError) {
+  // 0.09 over 0.04 + 0.01; in the dark 0.0001 over 0.01.
+  EXPECT_NEAR(quality::relmse(Picture(4, 4, 0.5f), Picture(4, 4, 0.2f)), 1.8, 1e-6);
+  EXPECT_NEAR(quality::relmse(Picture(4, 4, 0.01f), Picture(4, 4, 0)), 0.01, 1e-8);
+}
+
+TEST(Metrics, MeanRatioTellsLightThatIsLost) {
+  Picture reference(4, 4, 0.5f), picture(4, 4, 0.4f);
+  picture.set(1, 1, 1.2f);  // a mean of 0.45
+  EXPECT_NEAR(quality::mean_ratio(picture, reference), 0.9, 1e-7);
+  EXPECT_EQ(quality::mean_ratio(reference, reference), 1);
+  EXPECT_EQ(quality::mean_ratio(Picture(4, 4, 0), Picture(4, 4, 0)), 1);
+}
+
+TEST(Metrics, BorderStepOfAGradientIsOne) {
+  Picture gradient(64, 48), squares(64, 48);
+  for (std::size_t y = 0; y < 48; ++y) {
+    for (std::size_t x = 0; x < 64; ++x) {
+      // Even steps of display values; the same, with steps at borders three times as great.
+      gradient.set(x, y, linear_of(static_cast<double>(20 + x + y)));
+      squares.set(x, y, linear_of(static_cast<double>(20 + x + y + 2 * (x / 8) + 2 * (y / 8))));
+    }
+  }
+  EXPECT_NEAR(quality::border_step(gradient), 1, 1e-4);
+  EXPECT_NEAR(quality::border_step(squares), 3, 1e-3);
+  EXPECT_EQ(quality::border_step(Picture(64, 48, 0.3f)), 1) << "no step at all";
+  EXPECT_EQ(quality::border_step(noise(8, 8, 1)), 1) << "one block";
+}
+
+TEST(Metrics, NegativeShareCounts) {
+  Picture picture(4, 4, 0);
+  EXPECT_EQ(quality::negative_share(picture), 0) << "0 is not negative";
+  picture.set(2, 1, -0.5f);
+  picture.pixels[0] = -1e-9f;
+  EXPECT_EQ(quality::negative_share(picture), 4.0 / 48);
+}
+
 TEST(Metrics, MeasureGivesTheSameAsItsParts) {
   const Picture reference = noise(48, 32, 11);
   const Picture picture = noise(48, 32, 12);
@@ -72,6 +109,10 @@ TEST(Metrics, MeasureGivesTheSameAsItsParts) {
   EXPECT_EQ(metrics.relative_mse, quality::relative_mse(picture, reference));
   EXPECT_EQ(metrics.ssim, quality::ssim(picture, reference));
   EXPECT_EQ(metrics.seam, quality::seam_visibility(picture, reference));
+  EXPECT_EQ(metrics.relmse, quality::relmse(picture, reference));
+  EXPECT_EQ(metrics.mean_ratio, quality::mean_ratio(picture, reference));
+  EXPECT_EQ(metrics.border_step, quality::border_step(picture));
+  EXPECT_EQ(metrics.negative_share, quality::negative_share(picture));
   EXPECT_EQ(metrics.bad_values, 0);
 }
 

@@ -6,11 +6,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <string>
 #include <vector>
 
+#include "quality/noise_table.h"
 #include "quality/window.h"
 
 namespace {
@@ -38,6 +40,48 @@ TEST(Results, TextWithSeparatorsIsQuoted) {
   result.scene = "image:a,\"b\".png";
   const std::string csv = quality::to_csv(std::vector{result});
   EXPECT_NE(csv.find("\n\"image:a,\"\"b\"\".png\","), std::string::npos) << csv;
+}
+
+quality::Result noisy_result(const char* scene, const char* method, double rmse, double mean) {
+  quality::Result result;
+  result.scene = scene;
+  result.method = method;
+  result.rate = 4;
+  result.reference_error = 0.03;
+  result.metrics.rmse = rmse;
+  result.metrics.relmse = 0.25;
+  result.metrics.ssim = 0.5;
+  result.metrics.mean_ratio = mean;
+  result.metrics.border_step = 1.25;
+  result.metrics.negative_share = 0.125;
+  return result;
+}
+
+TEST(NoiseTable, TakesTheReferencesErrorOutAndSumsUp) {
+  // 0.04, 0.08, 0.16 and 0.04 beside an error of 0.03 of the reference.
+  const std::vector results{noisy_result("dof", "a", 0.05, 0.9),
+                            noisy_result("dof", "b", std::hypot(0.08, 0.03), 1),
+                            noisy_result("glossy", "a", std::hypot(0.16, 0.03), 1.05),
+                            noisy_result("glossy", "b", 0.05, 1.02)};
+  const std::string table = quality::noise_table(results);
+  const auto has = [&](const char* scene, const char* method, const char* figures) {
+    for (std::size_t begin = 0; begin < table.size();) {
+      const std::size_t end = table.find('\n', begin);
+      const std::string line = table.substr(begin, end - begin);
+      begin = end + 1;
+      if (line.find(std::string("| ") + scene + " ") == 0 &&
+          line.find(std::string("| ") + method + " ") != std::string::npos) {
+        return line.find(figures) != std::string::npos;
+      }
+    }
+    return false;
+  };
+  EXPECT_TRUE(has("dof", "a", "|  0.0400 |  0.2500 | 0.5000 |  0.900 |  1.250 |   0.1250 |"))
+      << table;
+  EXPECT_TRUE(has("dof", "b", "|  0.0800 |")) << table;
+  // 2 and 1/4: a half and its root.
+  EXPECT_TRUE(has("all", "a", "|  1.0000 |  0.2500 | 0.5000 |  0.900 |")) << table;
+  EXPECT_TRUE(has("all", "b", "|  0.7071 |  0.2500 | 0.5000 |  1.020 |")) << table;
 }
 
 TEST(Results, NamesOfFiles) {

@@ -94,11 +94,12 @@ TEST(NoisyScenes, NeighbouringSequencesAreNotCorrelated) {
 TEST(NoisyScenes, SamplesOfASequenceHaveLessNoiseTogether) {
   // By the mean over places of the squared deviation from the mean of many: of 16 samples of the
   // same sequence against 16 of different ones. 0.01 (softshadow), 0.21 (glossy) and 0.59 (dof, at
-  // edges in the texture) were measured.
+  // edges in the texture) were measured. Not of the path tracer, where a few values that are very
+  // bright decide: its own tests compare medians.
   constexpr std::uint64_t samples = 16;
   constexpr std::uint64_t sequences = 200;
   const Samples at(20, 97, 61);
-  for (const std::string_view name : noisy_names) {
+  for (const std::string_view name : {"softshadow", "dof", "glossy"}) {
     const auto scene = make(name, 97, 61);
     double together = 0, apart = 0;
     for (std::size_t i = 0; i < at.x.size(); ++i) {

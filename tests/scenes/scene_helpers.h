@@ -31,7 +31,8 @@ inline std::unique_ptr<scenes::Scene> make(std::string_view name, int width, int
       {.name = std::string(name), .width = width, .height = height, .seed = seed});
 }
 
-inline const std::set<std::string_view> noisy_names{"softshadow", "dof", "glossy"};
+inline const std::set<std::string_view> noisy_names{"softshadow", "dof", "glossy", "cornell",
+                                                    "spheres"};
 
 /// Positions and ids of samples.
 struct Samples {

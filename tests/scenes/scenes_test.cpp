@@ -86,8 +86,8 @@ TEST(Scenes, SayWhetherTheyAreNoisy) {
       if (one != radiance(*scene, at.x[i], at.y[i], at.id[i] + 1)) ++different;
     }
     if (scene->noisy()) {
-      EXPECT_GT(different, 650u) << name
-                                 << ": 814 of the 1000 were measured where it is the fewest";
+      EXPECT_GT(different, 480u) << name << ": 599 of the 1000 were measured for cornell, where"
+                                 << " there is nothing beside the box";
     } else {
       EXPECT_EQ(different, 0u) << name;
     }
@@ -119,9 +119,10 @@ TEST(Scenes, AreAllListed) {
   const auto names = scenes::scene_names();
   const std::set<std::string_view> listed(names.begin(), names.end());
   EXPECT_EQ(listed.size(), names.size());
-  EXPECT_EQ(listed, (std::set<std::string_view>{"fan", "chess", "zoneplate", "zoneplate-high",
-                                                "star", "edge", "checker", "gradient", "dot",
-                                                "corner", "sun", "softshadow", "dof", "glossy"}));
+  EXPECT_EQ(listed,
+            (std::set<std::string_view>{"fan", "chess", "zoneplate", "zoneplate-high", "star",
+                                        "edge", "checker", "gradient", "dot", "corner", "sun",
+                                        "softshadow", "dof", "glossy", "cornell", "spheres"}));
   for (const std::string_view name : names) {
     EXPECT_NE(scenes::scene_list().find(name), std::string::npos);
   }
