@@ -120,6 +120,7 @@ class BlockPicture {
     picture_.weights.resize(picture_.width * picture_.height);
     picture_.sums.assign(channels, picture_.weights);
     picture_.pixels.assign(channels, picture_.weights);
+    picture_.variances.assign(channels, NoisyPicture::Plane(grid.size()));
   }
 
   /// Takes what the samples of a block say, and its finished coefficients.
@@ -128,6 +129,7 @@ class BlockPicture {
     std::array<float, max_terms> weights, sums, pixels;
     inverse_dct(coefficients, pixels);
     finisher.pixel_samples(fit, pixels, weights, sums);
+    picture_.variances[channel][block] = fit.residual;
     visit(block, [&](std::size_t cell, std::size_t pixel) {
       picture_.weights[pixel] = weights[cell];
       picture_.sums[channel][pixel] = sums[cell];

@@ -21,27 +21,30 @@
 namespace freqsynth {
 namespace detail {
 
-/// Side of the cells in pixels.
-inline constexpr std::size_t regression_cell = 2;
-/// How many cells on each side of one count for it.
-inline constexpr std::size_t regression_reach = 2;
-
 /// One regression for each cell, of several targets on the same guides and on the position.
 class FREQSYNTH_API GuidedRegression {
  public:
+  static constexpr std::size_t no_target = std::numeric_limits<std::size_t>::max();
+
   /// What targets are regressed on.
   struct Guide {
     const float* at_samples;  ///< of each pixel, the mean over its samples
     const float* at_pixels;   ///< of each pixel, the mean over its area
     double ridge;             ///< added to the guide's variance in a cell, in its own unit squared
     /// The number of the target that the guide is an estimate of: then the ridge is in units of the
-    /// variance of a pixel's mean, as far as this guide leaves it over.
-    std::size_t of_target;
+    /// variance of a pixel's mean. That of a sample is what the guide leaves over in the window,
+    std::size_t of_target = no_target;
+    /// in each block (row by row) at least this.
+    const float* least_variances = nullptr;
   };
-  static constexpr std::size_t no_target = std::numeric_limits<std::size_t>::max();
+  /// What counts for a fit.
+  struct Window {
+    std::size_t cell;   ///< side of the cells in pixels; picture's sides are multiples of it
+    std::size_t reach;  ///< cells on each side of one that count for it, the less the farther
+  };
 
   /// \param sums  of each target, those of the picture's samples in each pixel
-  GuidedRegression(const NoisyPicture& picture, std::vector<Guide> guides,
+  GuidedRegression(const NoisyPicture& picture, const Window& window, std::vector<Guide> guides,
                    std::vector<const float*> sums);
 
   /// The prediction of a target for each pixel; where no cell around has a sample, nothing changes.
@@ -63,6 +66,7 @@ class FREQSYNTH_API GuidedRegression {
   void fit_cell(std::span<const double> sums, double windows, std::span<float> out);
 
   const NoisyPicture& picture_;
+  Window window_;
   std::vector<Guide> guides_;
   std::vector<const float*> sums_;
   std::size_t cells_x_, cells_y_, terms_, moments_, slopes_;

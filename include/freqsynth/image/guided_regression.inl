@@ -47,18 +47,20 @@ inline double middle_of_cell(std::size_t cell, std::size_t cells) {
   return static_cast<double>(cell) + 0.5 - 0.5 * static_cast<double>(cells);
 }
 /// and of a pixel's.
-inline double middle_of_pixel(std::size_t pixel, std::size_t pixels) {
-  return (static_cast<double>(pixel) + 0.5 - 0.5 * static_cast<double>(pixels)) / regression_cell;
+inline double middle_of_pixel(std::size_t pixel, std::size_t pixels, std::size_t cell) {
+  return (static_cast<double>(pixel) + 0.5 - 0.5 * static_cast<double>(pixels)) /
+         static_cast<double>(cell);
 }
 
 FREQSYNTH_INLINE GuidedRegression::GuidedRegression(const NoisyPicture& picture,
-                                                    std::vector<Guide> guides,
+                                                    const Window& window, std::vector<Guide> guides,
                                                     std::vector<const float*> sums)
     : picture_(picture),
+      window_(window),
       guides_(std::move(guides)),
       sums_(std::move(sums)),
-      cells_x_(picture.width / regression_cell),
-      cells_y_(picture.height / regression_cell),
+      cells_x_(picture.width / window_.cell),
+      cells_y_(picture.height / window_.cell),
       terms_(guides_.size() + 2),
       moments_(2 + 2 * sums_.size() + terms_ + terms_ * (terms_ + 1) / 2 + terms_ * sums_.size()),
       slopes_(terms_ + 1) {
@@ -68,19 +70,19 @@ FREQSYNTH_INLINE GuidedRegression::GuidedRegression(const NoisyPicture& picture,
 FREQSYNTH_INLINE void GuidedRegression::collect(std::size_t cell_y, std::span<double> row) const {
   std::fill(row.begin(), row.end(), 0.0);
   std::vector<double> terms(terms_);
-  for (std::size_t y = cell_y * regression_cell; y < (cell_y + 1) * regression_cell; ++y) {
+  for (std::size_t y = cell_y * window_.cell; y < (cell_y + 1) * window_.cell; ++y) {
     for (std::size_t x = 0; x < picture_.width; ++x) {
       const std::size_t pixel = y * picture_.width + x;
       const auto weight = static_cast<double>(picture_.weights[pixel]);
       if (!(weight > 0)) continue;
-      double* m = &row[x / regression_cell * moments_];
+      double* m = &row[x / window_.cell * moments_];
       m[0] += weight;
       m[1] += 1;
       for (std::size_t g = 0; g < guides_.size(); ++g) {
         terms[g] = static_cast<double>(guides_[g].at_samples[pixel]);
       }
-      terms[terms_ - 2] = middle_of_pixel(x, picture_.width);
-      terms[terms_ - 1] = middle_of_pixel(y, picture_.height);
+      terms[terms_ - 2] = middle_of_pixel(x, picture_.width, window_.cell);
+      terms[terms_ - 1] = middle_of_pixel(y, picture_.height, window_.cell);
       for (std::size_t t = 0; t < sums_.size(); ++t) {
         m[first_target() + t] += static_cast<double>(sums_[t][pixel]);
       }
@@ -88,7 +90,10 @@ FREQSYNTH_INLINE void GuidedRegression::collect(std::size_t cell_y, std::span<do
         if (guide.of_target == no_target) continue;
         const double left = static_cast<double>(sums_[guide.of_target][pixel]) / weight -
                             static_cast<double>(guide.at_pixels[pixel]);
-        m[first_residual() + guide.of_target] += weight * left * left;
+        const std::size_t block = y / block_size * (picture_.width / block_size) + x / block_size;
+        const double least =
+            guide.least_variances ? static_cast<double>(guide.least_variances[block]) : 0;
+        m[first_residual() + guide.of_target] += std::max(weight * left * left, least);
       }
       double* pairs = m + first_pair();
       double* products = m + first_product();
@@ -145,13 +150,13 @@ FREQSYNTH_INLINE void GuidedRegression::fit_cell(std::span<const double> sums, d
 }
 
 FREQSYNTH_INLINE void GuidedRegression::fit_all() {
-  constexpr std::size_t reach = regression_reach;
+  const std::size_t reach = window_.reach;
   const std::size_t targets = sums_.size();
   matrix_.resize(terms_ * terms_);
   right_.resize(terms_ * targets);
   fits_.assign(cells_x_ * cells_y_ * targets * slopes_, std::numeric_limits<float>::quiet_NaN());
   // The weight of a cell falls linearly with the distance along each axis.
-  const auto share = [](std::size_t a, std::size_t b) {
+  const auto share = [=](std::size_t a, std::size_t b) {
     return static_cast<double>(reach + 1 - (a > b ? a - b : b - a));
   };
   const auto around = [=](std::size_t cell, std::size_t cells) {
@@ -183,7 +188,7 @@ FREQSYNTH_INLINE void GuidedRegression::fit_all() {
         shares_x += weight;
       }
       if (!(window[0] > 1e-3)) continue;
-      const double pixels = double{regression_cell * regression_cell} * shares_x * shares_y;
+      const double pixels = static_cast<double>(window_.cell * window_.cell) * shares_x * shares_y;
       const std::span out(&fits_[(y * cells_x_ + x) * targets * slopes_], targets * slopes_);
       fit_cell(window, pixels, out);
       // From here on positions count from the cell's centre.
@@ -203,9 +208,9 @@ FREQSYNTH_INLINE void GuidedRegression::predict(std::size_t target, std::span<fl
     std::size_t first, second;
     float share;
   };
-  const auto beside = [](std::size_t pixel, std::size_t cells) -> Beside {
+  const auto beside = [&](std::size_t pixel, std::size_t cells) -> Beside {
     const auto from_first =
-        (static_cast<float>(pixel) + 0.5f) / static_cast<float>(regression_cell) - 0.5f;
+        (static_cast<float>(pixel) + 0.5f) / static_cast<float>(window_.cell) - 0.5f;
     if (from_first <= 0) return {0, 0, 0};
     const auto first = static_cast<std::size_t>(from_first);
     return {first, std::min(first + 1, cells - 1), from_first - static_cast<float>(first)};
@@ -219,8 +224,8 @@ FREQSYNTH_INLINE void GuidedRegression::predict(std::size_t target, std::span<fl
       const auto add = [&](std::size_t cell_x, std::size_t cell_y, float share) {
         const float* fit = &fits_[((cell_y * cells_x_ + cell_x) * sums_.size() + target) * slopes_];
         if (!(share > 0) || is_nan(fit[0])) return;
-        const auto distance = [](std::size_t at, std::size_t cell) {
-          return (static_cast<float>(at) + 0.5f) / static_cast<float>(regression_cell) -
+        const auto distance = [&](std::size_t at, std::size_t cell) {
+          return (static_cast<float>(at) + 0.5f) / static_cast<float>(window_.cell) -
                  static_cast<float>(cell) - 0.5f;
         };
         float value = fit[0] + fit[slopes_ - 2] * distance(x, cell_x) +

@@ -21,6 +21,8 @@ struct NoisyPicture {
   Plane weights;              ///< samples of each pixel, not negative
   std::vector<Plane> sums;    ///< of each channel: sum of the samples, by the same weights
   std::vector<Plane> pixels;  ///< of each channel: the finished pixels
+  /// Of each channel: the variance of the samples of each block about its fit, blocks row by row.
+  std::vector<Plane> variances;
 };
 
 }  // namespace freqsynth

@@ -25,7 +25,7 @@ namespace freqsynth {
 /// \param features  those that guide the others, and are to have less noise. The time grows with
 ///                  the square of their number.
 /// \throws std::invalid_argument when a plane has not the size of the picture, there are not as
-///         many planes of sums as of pixels, or a channel does not exist.
+///         many planes of sums and variances as of pixels, or a channel does not exist.
 FREQSYNTH_API void smooth_noise(NoisyPicture& picture, std::span<const std::size_t> channels,
                                 std::span<const std::size_t> features);
 

@@ -30,9 +30,11 @@ inline void check_picture(const NoisyPicture& picture, std::span<const std::size
     refuse("the noisy picture has " + std::to_string(picture.width) + " x " +
            std::to_string(picture.height) + " pixels, not multiples of 8");
   }
-  bool fits = picture.weights.size() == pixels && picture.sums.size() == picture.pixels.size();
+  bool fits = picture.weights.size() == pixels && picture.sums.size() == picture.pixels.size() &&
+              picture.variances.size() == picture.pixels.size();
   for (const auto& plane : picture.sums) fits = fits && plane.size() == pixels;
   for (const auto& plane : picture.pixels) fits = fits && plane.size() == pixels;
+  for (const auto& plane : picture.variances) fits = fits && plane.size() == pixels / max_terms;
   if (!fits) refuse("the planes of the noisy picture do not have its size");
   for (const std::size_t channel : channels) {
     if (channel < picture.pixels.size()) continue;
@@ -56,8 +58,7 @@ inline std::vector<GuidedRegression::Guide> feature_guides(
     for (std::size_t i = 0; i < plane.size(); ++i) {
       if (picture.weights[i] > 0) plane[i] = picture.sums[channel][i] / picture.weights[i];
     }
-    guides.push_back(
-        {plane.data(), pixels.data(), ridge * spread * spread, GuidedRegression::no_target});
+    guides.push_back({plane.data(), pixels.data(), ridge * spread * spread});
   }
   return guides;
 }
@@ -75,11 +76,21 @@ FREQSYNTH_INLINE void smooth_noise(NoisyPicture& picture, std::span<const std::s
   struct Pass {
     double ridge, border;
   };
-  constexpr Pass passes[] = {{6, 1}, {1.5, 0.3}};
+  constexpr Pass passes[] = {{4, 1}, {1.2, 0.3}};
   constexpr double last_border = 0.1;
   const auto close_borders = [&](std::size_t channel, double variance) {
     detail::close_borders(picture, picture.sums[channel], variance, picture.pixels[channel]);
   };
+
+  // Pixels of many samples follow them closely, and leave nothing over that tells of noise. What a
+  // block's fit leaves over does, but of samples that are evenly spread it says too much.
+  constexpr float share_of_variance = 0.25f;
+  std::vector<NoisyPicture::Plane> variances;
+  for (const std::size_t channel : channels) {
+    for (float& value : variances.emplace_back(picture.variances[channel])) {
+      value *= share_of_variance;
+    }
+  }
 
   std::vector<const float*> sums;
   for (const std::size_t channel : channels) sums.push_back(picture.sums[channel].data());
@@ -91,9 +102,9 @@ FREQSYNTH_INLINE void smooth_noise(NoisyPicture& picture, std::span<const std::s
     for (std::size_t t = 0; t < channels.size(); ++t) {
       close_borders(channels[t], pass.border);
       const float* pilot = picture.pixels[channels[t]].data();
-      guides.push_back({pilot, pilot, pass.ridge, t});
+      guides.push_back({pilot, pilot, pass.ridge, t, variances[t].data()});
     }
-    const GuidedRegression regression(picture, guides, sums);
+    const GuidedRegression regression(picture, {2, 2}, guides, sums);
     std::vector<NoisyPicture::Plane> predictions;
     for (std::size_t t = 0; t < channels.size(); ++t) {
       regression.predict(t, predictions.emplace_back(picture.pixels[channels[t]]));
