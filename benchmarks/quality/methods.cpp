@@ -37,8 +37,8 @@ baselines::Rendering synthesize(const baselines::Radiance& radiance, const basel
   settings.width = job.width;
   settings.height = job.height;
   settings.channels = channels;
-  settings.channel_weights.assign(channels, 0.0f);
-  std::fill_n(settings.channel_weights.begin(), 3, 1.0f);
+  settings.channel_settings.assign(channels, {freqsynth::ChannelRole::passive});
+  std::fill_n(settings.channel_settings.begin(), 3, freqsynth::ChannelSettings{});
   settings.list.seed = job.seed;
   settings.noisy = job.noisy;
   if (estimate == Estimate::paper) {

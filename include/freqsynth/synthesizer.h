@@ -17,6 +17,7 @@
 
 #include "freqsynth/basis/config.h"
 #include "freqsynth/basis/shared_list.h"
+#include "freqsynth/engine/channel_settings.h"
 #include "freqsynth/engine/executor.h"
 #include "freqsynth/engine/priority.h"
 #include "freqsynth/engine/sampling_loop.h"
@@ -51,8 +52,9 @@ struct SynthesisSettings {
   /// Most samples of a block, 1 .. SampleSequence::max_size. The default, a complete lattice of 257
   /// x 257, is about 1000 samples per pixel; the shared list takes 80 MB when a block gets there.
   std::size_t max_samples_per_block = std::size_t{257} * 257;
-  /// Weight of each channel in the priority, in 0..1e6; empty: equal weights.
-  std::vector<float> channel_weights = {};
+  /// What each channel is for; empty: all steer, with equal weights. Those of ChannelRole::nearest
+  /// come after the others, of which there is at least one.
+  std::vector<ChannelSettings> channel_settings = {};
   /// Factor on the priority of each block, row by row, 0 or in 1e-6..1e6; empty: 1. 0 leaves a
   /// block at its first sample.
   std::vector<float> importance = {};
@@ -134,7 +136,15 @@ class FREQSYNTH_API Synthesizer {
   /// The same with the settings for this sampler, noisy or not.
   [[nodiscard]] FrequencyImage finished_image() const;
 
-  /// Values per sample.
+  /// The pixels of a channel of ChannelRole::nearest, row by row, from the samples of completed
+  /// waves: each one the value of a sample in it, the nearest to its centre. A pixel without a
+  /// sample has the value of the nearest pixel of its block that has one; 0 where the block has
+  /// none.
+  /// \param channel  of the samples
+  /// \throws std::invalid_argument when the channel has another role.
+  [[nodiscard]] std::vector<float> nearest_pixels(std::size_t channel) const;
+
+  /// Values per sample. Images have those channels that are not ChannelRole::nearest.
   [[nodiscard]] std::size_t channels() const { return settings().channels; }
   /// The settings, with the list that is used as `shared_list`.
   [[nodiscard]] const SynthesisSettings& settings() const;

@@ -95,7 +95,7 @@ TEST(FastMath, WrongSettingsAreRefused) {
     settings.importance.assign(4, bad);
     refuses(settings);
     settings = {.width = 16, .height = 16, .channels = 1};
-    settings.channel_weights = {bad};
+    settings.channel_settings = {{.weight = bad}};
     refuses(settings);
     settings = {.width = 16, .height = 16, .channels = 1};
     settings.priority.uncertainty = static_cast<double>(bad);

@@ -144,7 +144,7 @@ TEST(QuantizationTarget, TheToleranceIsAShareOfTheQuantizersOwnError) {
   target.steps.assign(3, filled(7));
   target.tolerance = 0.5;
   // 192 errors that are uniform in -1/2 .. 1/2 of a step.
-  EXPECT_DOUBLE_EQ(target.allowed_error(), 0.5 * 192 / 12);
+  EXPECT_DOUBLE_EQ(target.allowed_error(3), 0.5 * 192 / 12);
 }
 
 TEST(QuantizationTarget, EvenlySpreadSamplesConvergeFasterBeyondOneAPixel) {

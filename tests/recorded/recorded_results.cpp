@@ -100,7 +100,7 @@ std::uint64_t strict() {
 
 std::uint64_t weighted() {
   SynthesisSettings settings{.width = 100, .height = 60};
-  settings.channel_weights = {0.2f, 0.7f, 0.1f};
+  settings.channel_settings = {{.weight = 0.2f}, {.weight = 0.7f}, {.weight = 0.1f}};
   for (int i = 0; i < 13 * 8; ++i) settings.importance.push_back(static_cast<float>(i % 5));
   return hash_of(settings, rgb, {.samples_per_pixel = 1.5});
 }

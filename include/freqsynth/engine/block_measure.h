@@ -142,6 +142,8 @@ class ResidualBook {
 
   /// In other units all residuals are so many times as large.
   void rescale(float factor) {
+    // The sum is not added up anew for channels that have no say here.
+    if (factor == 1) return;
     sum_ = 0;
     for (float& residual : residuals_) sum_ += double{residual *= factor};
     for (float& residual : told_) residual *= factor;

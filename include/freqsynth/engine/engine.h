@@ -31,6 +31,7 @@
 #include "freqsynth/engine/channel_units.h"
 #include "freqsynth/engine/edge_cache.h"
 #include "freqsynth/engine/exploration.h"
+#include "freqsynth/engine/nearest_samples.h"
 #include "freqsynth/engine/pixel_counts.h"
 #include "freqsynth/engine/signal_statistics.h"
 #include "freqsynth/engine/stop_rule.h"
@@ -49,8 +50,9 @@ class Engine {
   /// \param wave         most blocks of a wave; 0: 1/32 of all blocks
   /// \param exploration  see PrioritySettings::exploration
   /// \param seed         of Request::seed
+  /// \param nearest      channels that come after those of the blocks, see NearestSamples
   Engine(const BlockGrid& grid, BlockStore<R> blocks, M measure, std::vector<float> factors,
-         std::size_t wave, double exploration = 0, std::uint64_t seed = 0);
+         std::size_t wave, double exploration = 0, std::uint64_t seed = 0, std::size_t nearest = 0);
 
   /// Sets when request() stops, from the next wave on. \throws like StopRule::validate().
   void set_stop(const StopRule& stop);
@@ -71,6 +73,12 @@ class Engine {
   [[nodiscard]] SynthesisStats stats() const;
   /// The first bad samples, at most 1000.
   [[nodiscard]] std::vector<BadSample> bad_samples() const;
+
+  /// See NearestSamples::pixels().
+  [[nodiscard]] std::vector<float> nearest_pixels(std::size_t channel) const {
+    const std::lock_guard lock(mutex_);
+    return nearest_.pixels(channel);
+  }
 
   /// Calls read(grid, blocks) with the blocks after the last complete wave, which stay as they are
   /// meanwhile.
@@ -103,7 +111,7 @@ class Engine {
   void finish_wave();
   void change_units();
   void route(const Wave::Slot& slot, const float* values);
-  void note(const Wave::Slot& slot, const float* values);
+  void note(std::size_t slot);
   void absorb(std::uint32_t block, const float* values);
   void advance(std::uint32_t block);
 
@@ -115,6 +123,7 @@ class Engine {
   BlockChoice<R, M> choice_;
   Wave wave_;
   PixelCounts pixels_;
+  NearestSamples nearest_;
   BlockSet touched_;     // blocks that the wave asks for, or that it has changed
   std::uint64_t frame_;  // the seed, mixed
   std::size_t wave_size_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "freqsynth/basis/float_bits.h"
 #include "freqsynth/basis/mix_bits.h"
 #include "freqsynth/engine/engine.h"
 #include "freqsynth/engine/engine_requests.inl"
@@ -10,15 +11,16 @@ namespace freqsynth {
 template <Refiner R, BlockMeasure<R> M>
 Engine<R, M>::Engine(const BlockGrid& grid, BlockStore<R> blocks, M measure,
                      std::vector<float> factors, std::size_t wave, double exploration,
-                     std::uint64_t seed)
+                     std::uint64_t seed, std::size_t nearest)
     : grid_(grid),
       blocks_(std::move(blocks)),
       cache_(grid, blocks_.refiner().channels()),
       units_(blocks_.refiner().weights()),
       signal_(blocks_.refiner().channels()),
       choice_(std::move(measure), std::move(factors)),
-      wave_(blocks_.refiner().channels()),
+      wave_(blocks_.refiner().channels(), nearest),
       pixels_(grid),
+      nearest_(grid, nearest),
       touched_(grid.size()),
       frame_(detail::mix_bits(seed + detail::golden_step)),
       exploration_(exploration, grid.size()) {
@@ -148,7 +150,7 @@ void Engine<R, M>::finish_wave() {
       const Wave::Slot& soon = wave_.slot(i + ahead);
       blocks_.prefetch(soon.block, soon.index);
     }
-    note(wave_.slot(i), wave_.values(i));
+    note(i);
     route(wave_.slot(i), wave_.values(i));
   }
   stats_.samples += wave_.size();
@@ -178,10 +180,19 @@ void Engine<R, M>::change_units() {
 
 /// Looks at a sample as such.
 template <Refiner R, BlockMeasure<R> M>
-void Engine<R, M>::note(const Wave::Slot& slot, const float* values) {
+void Engine<R, M>::note(std::size_t number) {
   const std::size_t channels = blocks_.refiner().channels();
+  const Wave::Slot& slot = wave_.slot(number);
+  const float* values = wave_.values(number);
   const SequencePosition& place = position(slot.index);
   bool bad = false, ignored = false;
+  if (nearest_.channels() > 0) {
+    const float* others = wave_.nearest(number);
+    nearest_.add(grid_.point(slot.block, place), others);
+    for (std::size_t c = 0; c < nearest_.channels(); ++c) {
+      ignored = ignored || detail::is_nan(others[c]);
+    }
+  }
   for (std::size_t c = 0; c < channels; ++c) {
     if (is_usable_sample(values[c])) {
       signal_.note(c, values[c]);

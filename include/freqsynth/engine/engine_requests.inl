@@ -62,7 +62,7 @@ void Engine<R, M>::claim(std::span<const Request> requests) {
 
 template <Refiner R, BlockMeasure<R> M>
 void Engine<R, M>::deliver(std::span<const Request> requests, std::span<const float> values) {
-  const std::size_t channels = blocks_.refiner().channels();
+  const std::size_t channels = blocks_.refiner().channels() + nearest_.channels();
   if (values.size() != requests.size() * channels) {
     detail::refuse(std::to_string(values.size()) + " values for " +
                    std::to_string(requests.size()) + " requests of " + std::to_string(channels) +

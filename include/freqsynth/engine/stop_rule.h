@@ -49,10 +49,11 @@ enum class StopReason {
 struct SynthesisStats {
   std::uint64_t samples = 0;   ///< values delivered = sampler calls that succeeded
   std::uint64_t absorbed = 0;  ///< samples taken in by blocks; border samples count for each block
-  /// Samples with a value that is not is_usable_sample() in a channel that has a weight.
+  /// Samples with a value that is not is_usable_sample() in a channel that steers; or in any that
+  /// is not ChannelRole::nearest, where none steers.
   std::uint64_t bad_samples = 0;
-  /// Samples with such a value in channels of weight 0 only. They are no bad samples: for all other
-  /// channels they are as good as any.
+  /// Samples with such a value in passive channels only, or with NaN in those of
+  /// ChannelRole::nearest. They are no bad samples: for all other channels they are as good as any.
   std::uint64_t ignored_bad_samples = 0;
   std::uint64_t waves = 0;   ///< waves completed
   std::uint64_t blocks = 0;  ///< blocks of the image

@@ -31,7 +31,10 @@ class Wave {
   };
 
   /// Empty, and without room.
-  explicit Wave(std::size_t channels) : channels_(channels) {}
+  /// \param channels  values of a slot
+  /// \param nearest   more values of a slot, which come after these, are kept apart
+  explicit Wave(std::size_t channels, std::size_t nearest = 0)
+      : channels_(channels), nearest_(nearest) {}
 
   /// Makes room for `most` slots.
   void reserve(std::size_t most);
@@ -63,7 +66,7 @@ class Wave {
   void claim(std::uint32_t slot);
   /// A claimed slot is owed again.
   void let_go(std::uint32_t slot) { states_[slot] = State::owed; }
-  /// Stores the values of a claimed slot.
+  /// Stores all values of a claimed slot.
   void deliver(std::uint32_t slot, const float* values);
   /// Lets a claimed slot wait again.
   void recall(std::uint32_t slot);
@@ -77,6 +80,11 @@ class Wave {
     return values_.data() + slot * channels_;
   }
 
+  /// Its other values.
+  [[nodiscard]] const float* nearest(std::size_t slot) const {
+    return nearest_values_.data() + slot * nearest_;
+  }
+
   /// The values of all slots of a complete wave, `channels` for each.
   [[nodiscard]] std::span<float> values() { return {values_.data(), size() * channels_}; }
 
@@ -86,10 +94,10 @@ class Wave {
  private:
   enum class State : std::uint8_t { waiting, owed, claimed, delivered };
 
-  std::size_t channels_;
+  std::size_t channels_, nearest_;
   std::vector<Slot> slots_;
   std::vector<State> states_;
-  std::vector<float> values_;
+  std::vector<float> values_, nearest_values_;
   std::vector<std::uint32_t> returned_;  // slots that wait again
   std::size_t next_ = 0;                 // first slot that was never handed out
   std::size_t delivered_ = 0;
@@ -102,6 +110,7 @@ inline void Wave::reserve(std::size_t most) {
   states_.reserve(most);
   returned_.reserve(most);
   if (values_.size() < most * channels_) values_.resize(most * channels_);
+  if (nearest_values_.size() < most * nearest_) nearest_values_.resize(most * nearest_);
 }
 
 inline void Wave::add(const Slot& slot) {
@@ -138,6 +147,7 @@ inline void Wave::deliver(std::uint32_t slot, const float* values) {
   FREQSYNTH_ASSERT(states_[slot] == State::claimed);
   states_[slot] = State::delivered;
   std::copy_n(values, channels_, values_.data() + slot * channels_);
+  std::copy_n(values + channels_, nearest_, nearest_values_.data() + slot * nearest_);
   ++delivered_;
 }
 
