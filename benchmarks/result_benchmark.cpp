@@ -36,7 +36,7 @@ void finished_image(benchmark::State& state, const FinishSettings& settings) {
 BENCHMARK_CAPTURE(finished_image, exact, FinishSettings{})
     ->Name("result/1920x1080/finished_image")
     ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(finished_image, noisy, FinishSettings::noisy())
+BENCHMARK_CAPTURE(finished_image, noisy, FinishSettings{.noise = Noise::present})
     ->Name("result/1920x1080/finished_image_noisy")
     ->Unit(benchmark::kMillisecond);
 

@@ -27,6 +27,8 @@ set(FREQSYNTH_LAYERS
   "engine/executor.h|how `run` uses threads|"
   "engine/thread_pool.h|a pool of threads, compiled only|"
   "engine/stop_rule.h|when a synthesis ends, and what it says of itself|4.4"
+  "engine/noise.h|whether a sampler returns Monte Carlo estimates|"
+  "engine/noise_probes.h|samples that are asked for twice, so that noise is noticed|"
   "engine/channel_settings.h|what each channel of a sample is for|"
   "engine/block_grid.h|where blocks lie, and which of them share points and edges|4.3.1"
   "engine/pixel_counts.h|samples of every pixel, for their ordinals|"

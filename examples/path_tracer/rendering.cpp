@@ -26,7 +26,7 @@ Values values_of(const PathSample& sample) {
 
 Pixels render_adaptively(const Scene& scene, const Job& job, freqsynth::ThreadPool& pool) {
   freqsynth::SynthesisSettings settings{
-      .width = job.width, .height = job.height, .channels = channels, .noisy = true};
+      .width = job.width, .height = job.height, .channels = channels};
   settings.seed = job.frame;
   settings.channel_settings.assign(channels, {freqsynth::ChannelRole::passive});
   std::fill_n(settings.channel_settings.begin(), 3, freqsynth::ChannelSettings{});

@@ -19,6 +19,7 @@
 #include "freqsynth/basis/shared_list.h"
 #include "freqsynth/engine/channel_settings.h"
 #include "freqsynth/engine/executor.h"
+#include "freqsynth/engine/noise.h"
 #include "freqsynth/engine/priority.h"
 #include "freqsynth/engine/sampling_loop.h"
 #include "freqsynth/engine/stop_rule.h"
@@ -35,10 +36,10 @@ struct SynthesisSettings {
   std::size_t height = 0;    ///< pixels
   std::size_t channels = 3;  ///< values per sample, at least 1
 
-  /// The sampler returns Monte Carlo estimates: another value at each call for the same position.
-  /// Such noise is smoothed more, and only more samples make it smaller. Without it the error at
-  /// edges falls faster.
-  bool noisy = false;
+  /// Whether the sampler returns Monte Carlo estimates: another value at each call for the same
+  /// position. Such noise is smoothed more, and only more samples make it smaller. Without it the
+  /// error at edges falls faster. It is noticed: of n samples root n are asked for twice.
+  Noise noise = Noise::automatic;
 
   /// Of Request::seed: pictures with another one, such as frames of an animation, are to have
   /// independent noise. It moves no sample.
@@ -130,11 +131,12 @@ class FREQSYNTH_API Synthesizer {
 
   /// The best image that the samples of completed waves allow: finished pixels
   /// (CoefficientMeaning::pixel_average), see PixelFinisher.
-  /// \param settings  without it FinishSettings{}, or FinishSettings::noisy() for a noisy sampler
   /// \throws std::invalid_argument when a setting is out of range.
-  [[nodiscard]] FrequencyImage finished_image(const FinishSettings& settings) const;
-  /// The same with the settings for this sampler, noisy or not.
-  [[nodiscard]] FrequencyImage finished_image() const;
+  [[nodiscard]] FrequencyImage finished_image(const FinishSettings& settings = {}) const;
+
+  /// Whether the samples of completed waves are taken for Monte Carlo estimates: as
+  /// SynthesisSettings::noise says, or as has been seen.
+  [[nodiscard]] bool noisy() const;
 
   /// The pixels of a channel of ChannelRole::nearest, row by row, from the samples of completed
   /// waves: each one the value of a sample in it, the nearest to its centre. A pixel without a

@@ -118,7 +118,7 @@ inline std::vector<float> factors_of(const BlockGrid& grid, const std::vector<fl
 
 /// With the host's weights of the channels.
 inline Steering steering_of(const SynthesisSettings& settings, std::size_t blocks) {
-  return {settings.priority, settings.noisy, channel_weights(settings), blocks};
+  return {settings.priority, settings.noise == Noise::present, channel_weights(settings), blocks};
 }
 
 }  // namespace detail
@@ -134,8 +134,8 @@ struct Synthesizer::Implementation {
     const std::size_t blocks = grid.size();
     const std::size_t most = settings.max_samples_per_block;
     if (settings.quantization) {
-      build(QuantizerMeasure(*settings.quantization, settings.priority, settings.noisy, blocks,
-                             most));
+      build(QuantizerMeasure(*settings.quantization, settings.priority,
+                             settings.noise == Noise::present, blocks, most));
     } else if (settings.priority.measure == PriorityMeasure::change) {
       build(ChangeMeasure(settings.priority, blocks, most, detail::steering_of(settings, blocks)));
     } else {
@@ -165,9 +165,9 @@ struct Synthesizer::Implementation {
     BlockStore<R> blocks(
         R(settings.shared_list, settings.channels - nearest, detail::channel_weights(settings)),
         grid.size(), settings.max_samples_per_block);
-    engines.emplace<Engine<R, M>>(grid, std::move(blocks), std::move(measure),
-                                  detail::factors_of(grid, settings.importance), settings.wave,
-                                  settings.priority.exploration, settings.seed, nearest);
+    engines.emplace<Engine<R, M>>(
+        grid, std::move(blocks), std::move(measure), detail::factors_of(grid, settings.importance),
+        settings.wave, settings.priority.exploration, settings.seed, settings.noise, nearest);
   }
 
   template <class Variant, class Use>
@@ -223,15 +223,17 @@ FREQSYNTH_INLINE FrequencyImage Synthesizer::image() const {
 
 FREQSYNTH_INLINE FrequencyImage Synthesizer::finished_image(const FinishSettings& settings) const {
   const SharedInverseList& list = implementation_->settings.shared_list;
+  FinishSettings known = settings;
+  if (known.noise == Noise::automatic) known.noise = noisy() ? Noise::present : Noise::none;
   return implementation_->with_engine([&](const auto& engine) {
     return engine.read([&](const BlockGrid& grid, const auto& blocks) {
-      return freqsynth::finished_image(grid, blocks, list, settings);
+      return freqsynth::finished_image(grid, blocks, list, known);
     });
   });
 }
 
-FREQSYNTH_INLINE FrequencyImage Synthesizer::finished_image() const {
-  return finished_image(settings().noisy ? FinishSettings::noisy() : FinishSettings{});
+FREQSYNTH_INLINE bool Synthesizer::noisy() const {
+  return implementation_->with_engine([](const auto& engine) { return engine.noisy(); });
 }
 
 FREQSYNTH_INLINE std::vector<float> Synthesizer::nearest_pixels(std::size_t channel) const {

@@ -234,10 +234,11 @@ TEST(ChannelRoles, NearestPixelsHaveTheValueSampledNearestToTheirCentre) {
     for (const double rate : {0.05, 0.25, 1.0, 5.0}) {
       Synthesizer engine(with_features(width, height));
       std::vector<Taken> samples;
-      const auto sampler = [&](double x, double y) {
-        samples.push_back({x, y, features(x, y)});
-        if (std::fmod(x * y, 3) < 0.4) samples.back().values[1] = nan;
-        return samples.back().values;
+      const auto sampler = [&](const Request& request) {
+        Taken one{request.x, request.y, features(request.x, request.y)};
+        if (std::fmod(one.x * one.y, 3) < 0.4) one.values[1] = nan;
+        if (!request.again) samples.push_back(one);
+        return one.values;
       };
       engine.run(sampler, {.samples_per_pixel = rate});
       for (const std::size_t channel : {1u, 2u}) {

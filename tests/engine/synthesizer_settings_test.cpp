@@ -71,16 +71,17 @@ TEST(SynthesizerSettings, NeighboursKeepALuckyBlockInDoubt) {
 }
 
 TEST(SynthesizerSettings, NoisySamplersGetPicturesFinishedForNoise) {
-  for (const bool noisy : {false, true}) {
+  for (const Noise noise : {Noise::automatic, Noise::none, Noise::present}) {
     SynthesisSettings settings = settings_of(32, 32);
-    settings.noisy = noisy;
+    settings.noise = noise;
     Synthesizer engine(settings);
     engine.run(picture, at_samples_per_pixel(2));
-    const auto coefficients = helpers::coefficients_of(engine.finished_image());
-    const auto plain = helpers::coefficients_of(engine.finished_image(FinishSettings{}));
-    const auto for_noise = helpers::coefficients_of(engine.finished_image(FinishSettings::noisy()));
-    EXPECT_EQ(coefficients == plain, !noisy);
-    EXPECT_EQ(coefficients == for_noise, noisy);
+    const auto finished = [&](Noise wanted) {
+      return helpers::coefficients_of(engine.finished_image({.noise = wanted}));
+    };
+    EXPECT_EQ(finished(Noise::automatic) == finished(Noise::none), noise != Noise::present);
+    EXPECT_EQ(finished(Noise::automatic) == finished(Noise::present), noise == Noise::present);
+    EXPECT_EQ(engine.noisy(), noise == Noise::present);
   }
 }
 

@@ -169,7 +169,7 @@ TEST(QuantizationTarget, NoiseIsSampledUntilTheQuantizerHardlyNotices) {
     quantization.luminance = scale_table(luminance_table(), 100);
     SynthesisSettings settings{.width = 64, .height = 64, .channels = 1};
     settings.quantization = quantization_target(quantization, 1);
-    settings.noisy = noisy;
+    settings.noise = noisy ? Noise::present : Noise::none;
     settings.list.positions = SamplePositions::lattice;
     Synthesizer engine(settings);
     EXPECT_EQ(engine.run(noise, {}).reason, StopReason::threshold);

@@ -45,6 +45,13 @@ class QuantizerMeasure {
 
   /// See BlockMeasure.
   template <Refiner R>
+  bool notice_noise(const BlockView<R>&) {
+    noisy_ = true;
+    return true;
+  }
+
+  /// See BlockMeasure.
+  template <Refiner R>
   void absorbed(const BlockView<R>& view, std::uint32_t block, float) {
     book_.absorbed(view, block);
   }
