@@ -104,7 +104,7 @@ std::vector<Call> calls_of(Synthesizer& engine, const StopRule& stop, Sampler sa
 
 TEST(Noise, OnlyAFewPointsAreAskedForTwiceUnderOtherNames) {
   for (const Noise noise : {Noise::automatic, Noise::none, Noise::present}) {
-    for (const std::size_t wave : {0, 1, 1000}) {
+    for (const std::size_t wave : {0u, 1u, 1000u}) {
       SynthesisSettings settings = settings_of(53, 40, 1, wave);
       settings.noise = noise;
       Synthesizer engine(settings);

@@ -474,6 +474,55 @@ TEST(OtherMeasure, StrictOrderAsksForABlockOfFewestSamples) {
   EXPECT_EQ(looked, 700u);
 }
 
+/// Once there is noise, nothing matters but block 7.
+class MadByNoise : public FewestSamples {
+ public:
+  template <Refiner R>
+  [[nodiscard]] bool notice_noise(const BlockView<R>&) {
+    noisy_ = true;
+    return true;
+  }
+  template <Refiner R>
+  [[nodiscard]] float priority(const BlockView<R>& view, std::uint32_t block, float factor) const {
+    if (!noisy_) return FewestSamples::priority(view, block, factor);
+    return block == 7 ? 2.0f : 1e-6f;
+  }
+
+ private:
+  bool noisy_ = false;
+};
+
+TEST(OtherMeasure, IsToldOfNoiseAndAllBlocksArePutInOrderAnew) {
+  for (const Noise noise : {Noise::automatic, Noise::none}) {
+    const BlockGrid grid = BlockGrid::of(width, height, channels);
+    Engine<MeanRefiner, MadByNoise> engine(
+        grid, Blocks(MeanRefiner(helpers::shared_list(), channels), grid.size(), 1000), {},
+        std::vector<float>(grid.size(), 1), 1, 0, 0, noise);
+    engine.set_stop(helpers::at_samples(400));
+    std::size_t told = 0, asked_7 = 0;
+    std::vector<Request> requests(4);
+    while (const std::size_t count = engine.request(requests)) {
+      const std::span all = std::span(requests).first(count);
+      if (engine.noisy()) {
+        const std::uint32_t next =
+            engine.read([](const BlockGrid&, const Blocks& blocks) { return blocks.samples(7); });
+        ++told;
+        asked_7 += all[0].id == grid.name(7, next, helpers::shared_list()->position(next)) ? 1 : 0;
+      }
+      std::vector<float> values;
+      for (const Request& request : all) {
+        // The second value of a point is another one, but not at first.
+        const float value = request.again && engine.stats().samples > 100 ? 5.0f : 1.0f;
+        values.insert(values.end(), {value, 1});
+      }
+      engine.deliver(all, values);
+    }
+    EXPECT_EQ(told > 200, noise == Noise::automatic);
+    EXPECT_EQ(asked_7, told);
+    EXPECT_GT(engine.stats().differing_probes, 5u);
+  }
+}
+
 TEST(OtherMeasure, MeasuresThatLookAtValuesPreferABusyPart) {
   // Two of five columns are flat. Of the first one an even share is a fifth.
   const auto picture = [](double x, double y) {
