@@ -4,6 +4,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include <random>
 #include <vector>
 
 #include "fixtures.h"
@@ -36,9 +37,35 @@ void finished_image(benchmark::State& state, const FinishSettings& settings) {
 BENCHMARK_CAPTURE(finished_image, exact, FinishSettings{})
     ->Name("result/1920x1080/finished_image")
     ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(finished_image, noisy, FinishSettings::noisy())
+BENCHMARK_CAPTURE(finished_image, noisy, FinishSettings{.noise = Noise::present})
     ->Name("result/1920x1080/finished_image_noisy")
     ->Unit(benchmark::kMillisecond);
+
+/// Three channels of noise and seven features.
+void smooth(benchmark::State& state) {
+  NoisyPicture noisy{1920, 1080, {}, {}, {}, {}};
+  const std::size_t pixels = noisy.width * noisy.height;
+  noisy.weights.resize(pixels);
+  noisy.sums.assign(10, noisy.weights);
+  noisy.pixels.assign(10, noisy.weights);
+  noisy.variances.assign(10, std::vector<float>(pixels / max_terms, 0.01f));
+  std::mt19937 random(1);
+  std::uniform_real_distribution<float> uniform(0, 1);
+  for (std::size_t i = 0; i < pixels; ++i) {
+    noisy.weights[i] = 2 * uniform(random);
+    for (std::size_t c = 0; c < 10; ++c) {
+      noisy.pixels[c][i] = uniform(random);
+      noisy.sums[c][i] = noisy.weights[i] * uniform(random);
+    }
+  }
+  const std::vector<std::size_t> channels = {0, 1, 2}, features = {3, 4, 5, 6, 7, 8, 9};
+  for (auto _ : state) {
+    NoisyPicture picture = noisy;
+    smooth_noise(picture, channels, features);
+    benchmark::DoNotOptimize(picture.pixels[0].data());
+  }
+}
+BENCHMARK(smooth)->Name("result/1920x1080/smooth_noise_features")->Unit(benchmark::kMillisecond);
 
 /// All that the shortest program does after its run.
 void pixels(benchmark::State& state) {

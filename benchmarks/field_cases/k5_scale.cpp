@@ -28,7 +28,7 @@ Case unweighted_case(double scale, const std::string& name) {
         };
         auto settings = settings_of(256, 256);
         settings.channels = 2;
-        settings.channel_weights = {1, 0};
+        settings.channel_settings = {{}, {freqsynth::ChannelRole::passive}};
         const Measure measure = [&](const Picture& p) { return squared_error(p, right); };
         Figure figure{"RMSE of channel 0"};
         figure.right =

@@ -24,7 +24,7 @@ Kind rare_hits() {
              values[0] = u < p ? static_cast<float>(1 / p) : 0.0f;
            };
            auto settings = settings_of(96, 96);
-           settings.noisy = true;
+           settings.noise = freqsynth::Noise::present;
            const std::vector<double> right(96 * 96, 1.0);
            const Measure error = [&](const Picture& picture) {
              return squared_error(picture, right);

@@ -113,7 +113,6 @@ Synthesis synthesize(const Subject& subject, const freqsynth::StopRule& stop, bo
                      const std::optional<freqsynth::QuantizationTarget>& target,
                      freqsynth::ThreadPool& pool) {
   freqsynth::SynthesisSettings settings{.width = subject.size, .height = subject.size};
-  settings.noisy = subject.scene->noisy();
   settings.quantization = target;
   freqsynth::Synthesizer engine(settings);
   const auto sampler = [&](std::span<const freqsynth::Request> requests, std::span<float> values) {

@@ -28,6 +28,11 @@ double thread_seconds() {
 
 enum class Estimate { finished, plain, paper };
 
+/// Samples of the library for so many calls of the sampler, or one less: some are asked for twice.
+std::uint64_t samples_for(std::uint64_t calls) {
+  return calls + 1 - static_cast<std::uint64_t>(std::ceil(std::sqrt(static_cast<double>(calls))));
+}
+
 baselines::Rendering synthesize(const baselines::Radiance& radiance, const baselines::Job& job,
                                 Estimate estimate) {
   // Features ride along where they may be of use.
@@ -37,10 +42,9 @@ baselines::Rendering synthesize(const baselines::Radiance& radiance, const basel
   settings.width = job.width;
   settings.height = job.height;
   settings.channels = channels;
-  settings.channel_weights.assign(channels, 0.0f);
-  std::fill_n(settings.channel_weights.begin(), 3, 1.0f);
+  settings.channel_settings.assign(channels, {freqsynth::ChannelRole::feature});
+  std::fill_n(settings.channel_settings.begin(), 3, freqsynth::ChannelSettings{});
   settings.list.seed = job.seed;
-  settings.noisy = job.noisy;
   if (estimate == Estimate::paper) {
     settings.priority.measure = freqsynth::PriorityMeasure::change;
     settings.priority.exploration = 0;
@@ -63,7 +67,7 @@ baselines::Rendering synthesize(const baselines::Radiance& radiance, const basel
       ++result.samples[request.pixel];
     }
   };
-  engine.run(sampler, {.samples = job.samples});
+  engine.run(sampler, {.samples = samples_for(job.samples)});
   // The place for a finish that uses features: Estimate::finished of a noisy job.
   const std::vector<float> pixels =
       freqsynth::reconstruct(estimate == Estimate::paper ? engine.image() : engine.finished_image(),

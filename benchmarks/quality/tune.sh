@@ -63,7 +63,7 @@ How to read the rows:
   0 stands for.
 * \`doubt\`, \`shrinkage\` and \`slack\` are measured on the scenes without noise. Noisy scenes
   (\`softshadow\` and \`glossy\` in the first half, \`dof\` alone in the second) have defaults of
-  their own, \`FinishSettings::noisy()\`: the rows \`noisy_...\`.
+  their own: the rows \`noisy_...\`.
 
 What this does not tell: what parameters do together, at other rates, or to other measures than
 RMSE. The mean hides that a value may help some scenes and harm others, and a single scene with a

@@ -62,7 +62,7 @@ std::vector<Task> make_tasks(const Options& options, const std::vector<Subject>&
   for (const Subject& subject : subjects) {
     const bool noisy = subject.scene->noisy();
     const auto add = [&](const Parameter& parameter, const Value* value) {
-      const Setup setup = setup_of(parameter, value, options.size, noisy);
+      const Setup setup = setup_of(parameter, value, options.size);
       const auto [place, added] = measured.try_emplace({&subject, key_of(setup)});
       if (added) tasks.push_back({setup, subject, place->second});
     };
@@ -139,7 +139,7 @@ double ratio_of(const Parameter& parameter, const Value& value, std::size_t half
     const bool noisy = subject.scene->noisy();
     if (subject.half != half || !parameter.concerns(noisy)) continue;
     const auto errors = [&](const Value* chosen) {
-      return measured.at({&subject, key_of(setup_of(parameter, chosen, options.size, noisy))});
+      return measured.at({&subject, key_of(setup_of(parameter, chosen, options.size))});
     };
     const Errors with = errors(&value), without = errors(nullptr);
     for (std::size_t i = 0; i < rates.size(); ++i) sum += std::log(with[i] / without[i]);

@@ -19,12 +19,10 @@
 namespace tune {
 namespace {
 
-/// What Synthesizer does when only the scene is told.
-Setup default_setup(std::size_t size, bool noisy) {
+/// What Synthesizer does when nothing is told.
+Setup default_setup(std::size_t size) {
   Setup setup;
   setup.synthesis.width = setup.synthesis.height = size;
-  setup.synthesis.noisy = noisy;
-  if (noisy) setup.finish = freqsynth::FinishSettings::noisy();
   return setup;
 }
 
@@ -69,9 +67,9 @@ Key key_of(const Setup& setup) {
           finish.butterworth.order,
           static_cast<double>(finish.measure_doubt),
           finish.doubt,
+          finish.noisy_doubt,
           finish.shrinkage,
-          finish.slack,
-          static_cast<double>(synthesis.noisy)};
+          finish.slack};
 }
 
 std::vector<Parameter> make_parameters() {
@@ -79,6 +77,7 @@ std::vector<Parameter> make_parameters() {
   constexpr double off = std::numeric_limits<double>::infinity();
   const auto cutoff = [](Setup& s) -> double& { return s.finish.butterworth.cutoff; };
   const auto doubt = [](Setup& s) -> double& { return s.finish.doubt; };
+  const auto noisy_doubt = [](Setup& s) -> double& { return s.finish.noisy_doubt; };
   const auto shrinkage = [](Setup& s) -> double& { return s.finish.shrinkage; };
   const auto slack = [](Setup& s) -> double& { return s.finish.slack; };
   const auto set_measure = [](PriorityMeasure measure) {
@@ -133,7 +132,7 @@ std::vector<Parameter> make_parameters() {
   all.push_back({"doubt", For::quiet, numbers({0.25, 0.5, 1, 2}, doubt)});
   all.push_back({"shrinkage", For::quiet, numbers({0, 1, 2, 4}, shrinkage)});
   all.push_back({"slack", For::quiet, numbers({0, 0.2, 0.4, 0.8, off}, slack)});
-  all.push_back({"noisy_doubt", For::noisy, numbers({0.5, 1, 4, 16}, doubt)});
+  all.push_back({"noisy_doubt", For::noisy, numbers({0.5, 1, 4, 16}, noisy_doubt)});
   all.push_back({"noisy_measure_doubt",
                  For::noisy,
                  {{"on", set_measure_doubt(true)}, {"off", set_measure_doubt(false)}}});
@@ -142,17 +141,15 @@ std::vector<Parameter> make_parameters() {
   return all;
 }
 
-Setup setup_of(const Parameter& parameter, const Value* value, std::size_t size, bool noisy) {
-  Setup setup = default_setup(size, noisy);
+Setup setup_of(const Parameter& parameter, const Value* value, std::size_t size) {
+  Setup setup = default_setup(size);
   parameter.base(setup);
   if (value != nullptr) value->apply(setup);
   return setup;
 }
 
 bool is_default(const Parameter& parameter, const Value& value, std::size_t size) {
-  const bool noisy = parameter.scenes == For::noisy;
-  return key_of(setup_of(parameter, &value, size, noisy)) ==
-         key_of(setup_of(parameter, nullptr, size, noisy));
+  return key_of(setup_of(parameter, &value, size)) == key_of(setup_of(parameter, nullptr, size));
 }
 
 void check_defaults(const std::vector<Parameter>& parameters, std::size_t size) {

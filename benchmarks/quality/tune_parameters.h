@@ -50,8 +50,7 @@ struct Parameter {
 
 /// \param value  null: what the values of the parameter are compared with
 /// \param size   side of the picture in pixels
-[[nodiscard]] Setup setup_of(const Parameter& parameter, const Value* value, std::size_t size,
-                             bool noisy);
+[[nodiscard]] Setup setup_of(const Parameter& parameter, const Value* value, std::size_t size);
 
 /// Whether the value changes nothing.
 [[nodiscard]] bool is_default(const Parameter& parameter, const Value& value, std::size_t size);

@@ -29,7 +29,6 @@ constexpr std::array frame_rates{1.0 / 64, 1.0 / 32, 1.0 / 16, 1.0 / 8, 1.0 / 4,
 freqsynth::FrequencyImage image_of(const freqsynth::Synthesizer& engine, const Options& options) {
   if (options.pixel_filter == freqsynth::PixelFilter::none) return engine.image();
   freqsynth::FinishSettings settings;
-  if (engine.settings().noisy) settings = freqsynth::FinishSettings::noisy();
   settings.butterworth = options.butterworth;
   settings.residuals = !options.no_residuals;
   return engine.finished_image(settings);
@@ -81,13 +80,12 @@ std::string contact_sheet_name(const Options& options) {
   return options.frames + "/contact_sheet.png";
 }
 
-freqsynth::SynthesisSettings settings_of(const Options& options, const scenes::Scene& scene) {
+freqsynth::SynthesisSettings settings_of(const Options& options) {
   freqsynth::SynthesisSettings settings;
   settings.width = options.width;
   settings.height = options.height;
   settings.channels = options.gray ? 1 : 3;
   settings.wave = options.wave;
-  settings.noisy = scene.noisy();
   settings.priority.steer = options.steer;
   settings.list.seed = options.seed;
   settings.list.samples_per_term = options.terms_every;
@@ -122,7 +120,7 @@ class Synthesis {
       : options_(options),
         scene_(scene),
         stops_(stops_of(options)),
-        engine_(settings_of(options, scene)),
+        engine_(settings_of(options)),
         pool_(options.threads) {}
 
   /// \return whether it came to its end, and was not interrupted

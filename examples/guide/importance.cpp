@@ -61,5 +61,5 @@ int main() {
   std::printf("                          middle: 1st, 2nd      around: 1st, 2nd\n");
   show("all alike", {});
   show("middle 10 times", {.importance = middle});
-  show("1st channel 0.9, 0.1", {.channel_weights = {0.9f, 0.1f}});
+  show("1st channel 0.9, 0.1", {.channel_settings = {{.weight = 0.9f}, {.weight = 0.1f}}});
 }

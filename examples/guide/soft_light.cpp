@@ -43,7 +43,7 @@ static double evenly(const freqsynth::Request& request) {
 
 template <class Sampler>
 static double error_of(const Sampler& sampler, double samples) {
-  freqsynth::Synthesizer engine({.width = side, .height = side, .channels = 1, .noisy = true});
+  freqsynth::Synthesizer engine({.width = side, .height = side, .channels = 1});
   engine.run(sampler, {.samples_per_pixel = samples});
   const std::vector<float> pixels = freqsynth::reconstruct(engine.finished_image());
   double sum = 0;

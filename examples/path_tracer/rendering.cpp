@@ -26,10 +26,10 @@ Values values_of(const PathSample& sample) {
 
 Pixels render_adaptively(const Scene& scene, const Job& job, freqsynth::ThreadPool& pool) {
   freqsynth::SynthesisSettings settings{
-      .width = job.width, .height = job.height, .channels = channels, .noisy = true};
+      .width = job.width, .height = job.height, .channels = channels};
   settings.seed = job.frame;
-  settings.channel_weights.assign(channels, 0.0f);  // features ride along
-  std::fill_n(settings.channel_weights.begin(), 3, 1.0f);
+  settings.channel_settings.assign(channels, {freqsynth::ChannelRole::feature});
+  std::fill_n(settings.channel_settings.begin(), 3, freqsynth::ChannelSettings{});
   freqsynth::Synthesizer engine(settings);
   const auto sampler = [&](const freqsynth::Request& request) {
     const SampleName name{request.pixel, request.ordinal, request.seed, job.frame};

@@ -27,8 +27,9 @@ namespace freqsynth {
 struct Request {
   double x = 0;  ///< continuous pixels to the right, in [0, width]; pixel i is centred at i + 0.5
   double y = 0;  ///< continuous pixels downwards, in [0, height]
-  /// Names the point: the same for the same point whatever the batch size, the wave size or the
-  /// number of threads, and no two points of an image share one. Neighbours have similar ones.
+  /// Names the request: the same for the same point whatever the batch size, the wave size or the
+  /// number of threads, and no two requests of an image share one. A point that is asked for a
+  /// second time, so that noise is noticed, has another one then. Neighbours have similar ones.
   std::uint64_t id = 0;
   /// Distance in pixels to the nearest earlier samples of the block, a footprint for texture
   /// filters. In a block of less than 8 pixels in width or height, the last of its row or column,
@@ -36,7 +37,7 @@ struct Request {
   float spacing = 0;
   std::uint32_t slot = 0;  ///< the engine's own note; hand it back unchanged
   /// A seed for the host's random numbers: all bits of `id` and of SynthesisSettings::seed, well
-  /// mixed. No two points of an image share one; pictures of other settings' seeds have others.
+  /// mixed. No two requests of an image share one; pictures of other settings' seeds have others.
   std::uint64_t seed = 0;
   /// The pixel that contains the point, row * width + column. The image's right and bottom border
   /// belong to the last pixels.
@@ -51,6 +52,9 @@ struct Request {
   /// here, which is below the executor's concurrency(): for memory or a generator that calls must
   /// not share. In a loop of the host's own 0.
   std::uint32_t thread = 0;
+  /// Whether the point is asked for a second time, so that noise is noticed. Answer it like any
+  /// other.
+  bool again = false;
 };
 
 /// Largest magnitude that is usable: the coefficients of such values, eight times as large, and

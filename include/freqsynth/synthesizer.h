@@ -17,7 +17,9 @@
 
 #include "freqsynth/basis/config.h"
 #include "freqsynth/basis/shared_list.h"
+#include "freqsynth/engine/channel_settings.h"
 #include "freqsynth/engine/executor.h"
+#include "freqsynth/engine/noise.h"
 #include "freqsynth/engine/priority.h"
 #include "freqsynth/engine/sampling_loop.h"
 #include "freqsynth/engine/stop_rule.h"
@@ -34,10 +36,10 @@ struct SynthesisSettings {
   std::size_t height = 0;    ///< pixels
   std::size_t channels = 3;  ///< values per sample, at least 1
 
-  /// The sampler returns Monte Carlo estimates: another value at each call for the same position.
-  /// Such noise is smoothed more, and only more samples make it smaller. Without it the error at
-  /// edges falls faster.
-  bool noisy = false;
+  /// Whether the sampler returns Monte Carlo estimates: another value at each call for the same
+  /// position. Such noise is smoothed more, and only more samples make it smaller. Without it the
+  /// error at edges falls faster. It is noticed: of n samples root n are asked for twice.
+  Noise noise = Noise::automatic;
 
   /// Of Request::seed: pictures with another one, such as frames of an animation, are to have
   /// independent noise. It moves no sample.
@@ -51,8 +53,9 @@ struct SynthesisSettings {
   /// Most samples of a block, 1 .. SampleSequence::max_size. The default, a complete lattice of 257
   /// x 257, is about 1000 samples per pixel; the shared list takes 80 MB when a block gets there.
   std::size_t max_samples_per_block = std::size_t{257} * 257;
-  /// Weight of each channel in the priority, in 0..1e6; empty: equal weights.
-  std::vector<float> channel_weights = {};
+  /// What each channel is for; empty: all steer, with equal weights. Those of ChannelRole::nearest
+  /// come after the others, of which there is at least one.
+  std::vector<ChannelSettings> channel_settings = {};
   /// Factor on the priority of each block, row by row, 0 or in 1e-6..1e6; empty: 1. 0 leaves a
   /// block at its first sample.
   std::vector<float> importance = {};
@@ -128,13 +131,22 @@ class FREQSYNTH_API Synthesizer {
 
   /// The best image that the samples of completed waves allow: finished pixels
   /// (CoefficientMeaning::pixel_average), see PixelFinisher.
-  /// \param settings  without it FinishSettings{}, or FinishSettings::noisy() for a noisy sampler
   /// \throws std::invalid_argument when a setting is out of range.
-  [[nodiscard]] FrequencyImage finished_image(const FinishSettings& settings) const;
-  /// The same with the settings for this sampler, noisy or not.
-  [[nodiscard]] FrequencyImage finished_image() const;
+  [[nodiscard]] FrequencyImage finished_image(const FinishSettings& settings = {}) const;
 
-  /// Values per sample.
+  /// Whether the samples of completed waves are taken for Monte Carlo estimates: as
+  /// SynthesisSettings::noise says, or as has been seen.
+  [[nodiscard]] bool noisy() const;
+
+  /// The pixels of a channel of ChannelRole::nearest, row by row, from the samples of completed
+  /// waves: each one the value of a sample in it, the nearest to its centre. A pixel without a
+  /// sample has the value of the nearest pixel of its block that has one; 0 where the block has
+  /// none.
+  /// \param channel  of the samples
+  /// \throws std::invalid_argument when the channel has another role.
+  [[nodiscard]] std::vector<float> nearest_pixels(std::size_t channel) const;
+
+  /// Values per sample. Images have those channels that are not ChannelRole::nearest.
   [[nodiscard]] std::size_t channels() const { return settings().channels; }
   /// The settings, with the list that is used as `shared_list`.
   [[nodiscard]] const SynthesisSettings& settings() const;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <variant>
@@ -23,6 +24,69 @@
 namespace freqsynth {
 namespace detail {
 
+/// Number of channels that have no coefficients: the last ones.
+inline std::size_t nearest_channels(const SynthesisSettings& settings) {
+  const std::vector<ChannelSettings>& all = settings.channel_settings;
+  const auto is_nearest = [](const ChannelSettings& one) {
+    return one.role == ChannelRole::nearest;
+  };
+  return static_cast<std::size_t>(std::count_if(all.begin(), all.end(), is_nearest));
+}
+
+inline void check_channels(const SynthesisSettings& settings) {
+  const std::vector<ChannelSettings>& all = settings.channel_settings;
+  if (all.empty()) return;
+  if (all.size() != settings.channels) {
+    refuse("channel_settings has " + std::to_string(all.size()) + " entries for " +
+           std::to_string(settings.channels) + " channels");
+  }
+  const std::size_t first_nearest = all.size() - nearest_channels(settings);
+  if (first_nearest == 0) {
+    refuse("channel_settings has " + std::to_string(all.size()) +
+           " channels of role nearest, not at least one other");
+  }
+  for (std::size_t c = 0; c < all.size(); ++c) {
+    if (all[c].role > ChannelRole::nearest) {
+      refuse("one of channel_settings' roles is " + std::to_string(static_cast<int>(all[c].role)) +
+             ", not steer, passive, feature or nearest");
+    }
+    if (c < first_nearest && all[c].role == ChannelRole::nearest) {
+      refuse("channel_settings has the role nearest for channel " + std::to_string(c) +
+             ", not after all others");
+    }
+    const float weight = all[c].weight;
+    require(all[c].role != ChannelRole::steer ||
+                (is_finite(weight) && weight >= 1e-30f && weight <= 1e6f),
+            "one of channel_settings' weights", weight, "in 1e-30..1e6");
+  }
+}
+
+/// The channels of that role.
+inline std::vector<std::size_t> channels_of(const SynthesisSettings& settings, ChannelRole role) {
+  std::vector<std::size_t> channels;
+  for (std::size_t c = 0; c < settings.channel_settings.size(); ++c) {
+    if (settings.channel_settings[c].role == role) channels.push_back(c);
+  }
+  return channels;
+}
+
+/// Weight of each channel that has coefficients: shares of 1, and 0 for those that do not steer.
+inline std::vector<float> channel_weights(const SynthesisSettings& settings) {
+  std::vector<ChannelSettings> all = settings.channel_settings;
+  if (all.empty()) all.resize(settings.channels);
+  all.resize(settings.channels - nearest_channels(settings));
+  double sum = 0;
+  for (ChannelSettings& one : all) {
+    if (one.role != ChannelRole::steer) one.weight = 0;
+    sum += double{one.weight};
+  }
+  std::vector<float> weights;
+  for (const ChannelSettings& one : all) {
+    weights.push_back(one.weight > 0 ? static_cast<float>(double{one.weight} / sum) : 0);
+  }
+  return weights;
+}
+
 /// Settings that are in range, with a list.
 inline SynthesisSettings validated(SynthesisSettings settings, std::size_t blocks) {
   settings.priority.validate();
@@ -41,8 +105,9 @@ inline SynthesisSettings validated(SynthesisSettings settings, std::size_t block
     require(is_finite(importance) && (importance == 0 || in_range), "one of importance", importance,
             "0 or in 1e-6..1e6");
   }
+  check_channels(settings);
   if (settings.quantization) {
-    settings.quantization->validate(settings.channels);
+    settings.quantization->validate(settings.channels - nearest_channels(settings));
     require(settings.priority.steer == Steer::linear, "priority.steer",
             static_cast<double>(settings.priority.steer), "linear, with a quantization target");
   }
@@ -62,11 +127,7 @@ inline std::vector<float> factors_of(const BlockGrid& grid, const std::vector<fl
 
 /// With the host's weights of the channels.
 inline Steering steering_of(const SynthesisSettings& settings, std::size_t blocks) {
-  std::vector<float> weights = settings.channel_weights;
-  if (weights.empty()) {
-    weights.assign(settings.channels, 1 / static_cast<float>(settings.channels));
-  }
-  return {settings.priority, settings.noisy, std::move(weights), blocks};
+  return {settings.priority, settings.noise == Noise::present, channel_weights(settings), blocks};
 }
 
 }  // namespace detail
@@ -82,8 +143,8 @@ struct Synthesizer::Implementation {
     const std::size_t blocks = grid.size();
     const std::size_t most = settings.max_samples_per_block;
     if (settings.quantization) {
-      build(QuantizerMeasure(*settings.quantization, settings.priority, settings.noisy, blocks,
-                             most));
+      build(QuantizerMeasure(*settings.quantization, settings.priority,
+                             settings.noise == Noise::present, blocks, most));
     } else if (settings.priority.measure == PriorityMeasure::change) {
       build(ChangeMeasure(settings.priority, blocks, most, detail::steering_of(settings, blocks)));
     } else {
@@ -109,11 +170,13 @@ struct Synthesizer::Implementation {
  private:
   template <class M>
   void build(M measure) {
-    BlockStore<R> blocks(R(settings.shared_list, settings.channels, settings.channel_weights),
-                         grid.size(), settings.max_samples_per_block);
-    engines.emplace<Engine<R, M>>(grid, std::move(blocks), std::move(measure),
-                                  detail::factors_of(grid, settings.importance), settings.wave,
-                                  settings.priority.exploration, settings.seed);
+    const std::size_t nearest = detail::nearest_channels(settings);
+    BlockStore<R> blocks(
+        R(settings.shared_list, settings.channels - nearest, detail::channel_weights(settings)),
+        grid.size(), settings.max_samples_per_block);
+    engines.emplace<Engine<R, M>>(
+        grid, std::move(blocks), std::move(measure), detail::factors_of(grid, settings.importance),
+        settings.wave, settings.priority.exploration, settings.seed, settings.noise, nearest);
   }
 
   template <class Variant, class Use>
@@ -169,15 +232,29 @@ FREQSYNTH_INLINE FrequencyImage Synthesizer::image() const {
 
 FREQSYNTH_INLINE FrequencyImage Synthesizer::finished_image(const FinishSettings& settings) const {
   const SharedInverseList& list = implementation_->settings.shared_list;
+  const std::vector<std::size_t> features =
+      detail::channels_of(implementation_->settings, ChannelRole::feature);
+  FinishSettings known = settings;
+  if (known.noise == Noise::automatic) known.noise = noisy() ? Noise::present : Noise::none;
   return implementation_->with_engine([&](const auto& engine) {
     return engine.read([&](const BlockGrid& grid, const auto& blocks) {
-      return freqsynth::finished_image(grid, blocks, list, settings);
+      return freqsynth::finished_image(grid, blocks, list, known, features);
     });
   });
 }
 
-FREQSYNTH_INLINE FrequencyImage Synthesizer::finished_image() const {
-  return finished_image(settings().noisy ? FinishSettings::noisy() : FinishSettings{});
+FREQSYNTH_INLINE bool Synthesizer::noisy() const {
+  return implementation_->with_engine([](const auto& engine) { return engine.noisy(); });
+}
+
+FREQSYNTH_INLINE std::vector<float> Synthesizer::nearest_pixels(std::size_t channel) const {
+  const std::size_t all = settings().channels;
+  const std::size_t first = all - detail::nearest_channels(settings());
+  if (channel < first || channel >= all) {
+    detail::refuse("channel is " + std::to_string(channel) + ", not one of role nearest");
+  }
+  return implementation_->with_engine(
+      [&](const auto& engine) { return engine.nearest_pixels(channel - first); });
 }
 
 FREQSYNTH_INLINE const SynthesisSettings& Synthesizer::settings() const {

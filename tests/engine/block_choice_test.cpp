@@ -41,6 +41,7 @@ class ScriptedMeasure {
   explicit ScriptedMeasure(Script& script) : script_(&script) {}
 
   void use_units(const BlockView<ScriptedRefiner>&, float) {}
+  [[nodiscard]] bool notice_noise(const BlockView<ScriptedRefiner>&) { return false; }
 
   void absorbed(const BlockView<ScriptedRefiner>&, Block block, float change) {
     script_->absorbed.push_back({block, change});

@@ -238,6 +238,17 @@ TEST(ResidualBook, KeepsTheNewestResidualsAndTheirMean) {
   feed(image, 400, random, check);
 }
 
+TEST(ResidualBook, AFactorOfOneChangesNotABit) {
+  // A sum that is added up anew would not have lost what the great number took away.
+  ResidualBook book(2);
+  book.note(0, 1e30f);
+  book.note(1, 1);
+  book.note(0, 0.25f);
+  const float mean = book.mean();
+  book.rescale(1);
+  EXPECT_EQ(book.mean(), mean);
+}
+
 TEST(ResidualBook, PoolsAWeightedMeanOfVariances) {
   for (const auto& [x, y] : {std::pair<std::size_t, std::size_t>{1, 1}, {1, 4}, {4, 1}, {3, 3}}) {
     Image<ScriptedRefiner> image(x, y, ScriptedRefiner({1}));
@@ -394,6 +405,40 @@ TEST(ResidualMeasure, SteeredPoolsResidualsAsTheyAreSeen) {
           << "block " << fed << " of " << samples << " samples";
     });
   }
+}
+
+TEST(ResidualMeasure, NoiseThatIsNoticedIsNoiseThatWasKnown) {
+  for (const Steer steer : {Steer::relative, Steer::display}) {
+    const PrioritySettings settings{.steer = steer};
+    Image<LeastSquaresRefiner> image(3, 2, LeastSquaresRefiner(helpers::shared_list(), 1));
+    const auto measure = [&](bool noisy) {
+      return ResidualMeasure(settings, 6, 300, Steering(settings, noisy, {1}, 6));
+    };
+    ResidualMeasure noticed = measure(false), exact = measure(false), known = measure(true);
+    oracle::Random random(1);
+    // With fewer than 16 samples a block is looked at after each.
+    for (int n = 0; n < 15; ++n) {
+      for (Block block = 0; block < 6; ++block) {
+        const float value = 0.1f * static_cast<float>(block + 1) +
+                            0.09f * static_cast<float>(random.uniform(-1, 1));
+        image.blocks.absorb(block, &value);
+        for (ResidualMeasure* one : {&noticed, &exact, &known}) {
+          one->absorbed(image.view(), block, 1);
+        }
+      }
+    }
+    EXPECT_TRUE(noticed.notice_noise(image.view()));
+    for (Block block = 0; block < 6; ++block) {
+      const auto priority = [&](const ResidualMeasure& one) {
+        return one.priority(image.view(), block, 1);
+      };
+      EXPECT_FLOAT_EQ(priority(noticed), priority(known)) << block;
+      EXPECT_NE(priority(exact), priority(known)) << block;
+    }
+  }
+  Image<ScriptedRefiner> image(1, 1, ScriptedRefiner({1}));
+  ResidualMeasure linear({}, 1, 300);
+  EXPECT_FALSE(linear.notice_noise(image.view())) << "it does not ask";
 }
 
 TEST(ResidualMeasure, NarrowBlocksCountByTheRootOfTheirArea) {

@@ -50,7 +50,7 @@ struct Result {
   std::uint64_t most = 0;
 };
 
-/// \param stray   number of the call whose value is stray; none beyond the last one
+/// \param stray   number of the sample whose value is stray; none beyond the last one
 /// \param x, y    receive its place; the pixels around it are left out of the error
 Result result_of(PriorityMeasure measure, double spp, std::size_t stray, float value, double& x,
                  double& y) {
@@ -59,12 +59,14 @@ Result result_of(PriorityMeasure measure, double spp, std::size_t stray, float v
   // The paper's measure on the paper's lattice. On the bent one it is up to 6 percent.
   if (measure == PriorityMeasure::change) settings.list.positions = SamplePositions::lattice;
   Synthesizer engine(settings);
-  std::size_t calls = 0;
+  std::size_t asked = 0;
   engine.run(
-      [&](double px, double py) {
-        if (calls++ != stray) return static_cast<float>(scene(px, py));
-        x = px;
-        y = py;
+      [&](const Request& request) {
+        if (request.again || asked++ != stray) {
+          return static_cast<float>(scene(request.x, request.y));
+        }
+        x = request.x;
+        y = request.y;
         return value;
       },
       {.samples_per_pixel = spp});

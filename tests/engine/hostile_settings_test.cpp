@@ -49,8 +49,8 @@ std::vector<Field> fields() {
          s.priority.exposure = v;
        }},
       {"samples_per_term", [](auto& s, double v) { s.list.samples_per_term = v; }},
-      {"channel_weights",
-       [](auto& s, double v) { s.channel_weights.assign(2, static_cast<float>(v)); }},
+      {"channel_settings",
+       [](auto& s, double v) { s.channel_settings.assign(2, {.weight = static_cast<float>(v)}); }},
       {"importance", [](auto& s, double v) { s.importance.assign(20, static_cast<float>(v)); }},
       {"step",
        [](auto& s, double v) {

@@ -207,6 +207,10 @@ class FewestSamples {
   template <Refiner R>
   void use_units(const BlockView<R>&, float) {}
   template <Refiner R>
+  [[nodiscard]] bool notice_noise(const BlockView<R>&) {
+    return false;
+  }
+  template <Refiner R>
   void absorbed(const BlockView<R>&, std::uint32_t, float) {}
   template <Refiner R>
   [[nodiscard]] float priority(const BlockView<R>& view, std::uint32_t block, float) const {
@@ -229,10 +233,16 @@ struct WithoutNews : FewestSamples {
   bool has_news(std::uint32_t) = delete;
 };
 
+struct WithoutNoise : FewestSamples {
+  template <Refiner R>
+  bool notice_noise(const BlockView<R>&) = delete;
+};
+
 static_assert(BlockMeasure<FewestSamples, MeanRefiner>);
 static_assert(BlockMeasure<ChangeMeasure, MeanRefiner>);
 static_assert(BlockMeasure<ResidualMeasure, MeanRefiner>);
 static_assert(!BlockMeasure<WithoutPriority, MeanRefiner>);
+static_assert(!BlockMeasure<WithoutNoise, MeanRefiner>);
 static_assert(!BlockMeasure<WithoutUnits, MeanRefiner>);
 static_assert(!BlockMeasure<WithoutNews, MeanRefiner>);
 static_assert(!BlockMeasure<MeanRefiner, MeanRefiner>);
@@ -354,7 +364,9 @@ TYPED_TEST(OtherRefiner, BlocksAreTheMeansOfTheSamplesRoutedToThem) {
       auto engine = make_engine<TypeParam>(wave);
       engine.set_stop(helpers::at_samples(budget));
       std::map<std::uint64_t, int> asked;
-      serve(engine, 4, sample, [&](const Request& request) { ++asked[request.id]; });
+      serve(engine, 4, sample, [&](const Request& request) {
+        if (!request.again) ++asked[request.id];
+      });
       EXPECT_EQ(engine.stopped(), StopReason::samples);
       const SynthesisStats stats = engine.stats();
       EXPECT_EQ(stats.samples, budget);
@@ -369,7 +381,9 @@ TYPED_TEST(OtherRefiner, BlocksAreTheMeansOfTheSamplesRoutedToThem) {
 TYPED_TEST(OtherRefiner, AllBlocksGetTheirMostSamples) {
   auto engine = make_engine<TypeParam>(0, 25);
   std::map<std::uint64_t, int> asked;
-  serve(engine, 3, sample, [&](const Request& request) { ++asked[request.id]; });
+  serve(engine, 3, sample, [&](const Request& request) {
+    if (!request.again) ++asked[request.id];
+  });
   EXPECT_EQ(engine.stopped(), StopReason::exhausted);
   const SynthesisStats stats = engine.stats();
   // 5 x 3 lattices of 5 x 5 that share their borders.
@@ -412,7 +426,7 @@ TYPED_TEST(OtherRefiner, BadValuesAreTheEstimatorsBusiness) {
   const auto is_bad = [](double x, double y) { return x > 20 && x < 34 && y > 3; };
   const auto half = [&](double x, double y) { return std::array{is_bad(x, y) ? nan : 1.5f, 0.5f}; };
   serve(engine, 8, half, [&](const Request& request) {
-    if (is_bad(request.x, request.y)) bad.insert(request.id);
+    if (is_bad(request.x, request.y) && !request.again) bad.insert(request.id);
   });
   ASSERT_GT(bad.size(), 50u);
   EXPECT_EQ(engine.stats().bad_samples, bad.size());
@@ -444,6 +458,7 @@ TEST(OtherMeasure, StrictOrderAsksForABlockOfFewestSamples) {
   engine.set_stop(helpers::at_samples(700));
   std::size_t looked = 0;
   serve(engine, 1, sample, [&](const Request& request) {
+    if (request.again) return;
     engine.read([&](const BlockGrid& grid, const Blocks& blocks) {
       std::uint32_t fewest = std::numeric_limits<std::uint32_t>::max();
       for (std::uint32_t b = 0; b < grid.size(); ++b) fewest = std::min(fewest, blocks.samples(b));
@@ -457,6 +472,55 @@ TEST(OtherMeasure, StrictOrderAsksForABlockOfFewestSamples) {
     });
   });
   EXPECT_EQ(looked, 700u);
+}
+
+/// Once there is noise, nothing matters but block 7.
+class MadByNoise : public FewestSamples {
+ public:
+  template <Refiner R>
+  [[nodiscard]] bool notice_noise(const BlockView<R>&) {
+    noisy_ = true;
+    return true;
+  }
+  template <Refiner R>
+  [[nodiscard]] float priority(const BlockView<R>& view, std::uint32_t block, float factor) const {
+    if (!noisy_) return FewestSamples::priority(view, block, factor);
+    return block == 7 ? 2.0f : 1e-6f;
+  }
+
+ private:
+  bool noisy_ = false;
+};
+
+TEST(OtherMeasure, IsToldOfNoiseAndAllBlocksArePutInOrderAnew) {
+  for (const Noise noise : {Noise::automatic, Noise::none}) {
+    const BlockGrid grid = BlockGrid::of(width, height, channels);
+    Engine<MeanRefiner, MadByNoise> engine(
+        grid, Blocks(MeanRefiner(helpers::shared_list(), channels), grid.size(), 1000), {},
+        std::vector<float>(grid.size(), 1), 1, 0, 0, noise);
+    engine.set_stop(helpers::at_samples(400));
+    std::size_t told = 0, asked_7 = 0;
+    std::vector<Request> requests(4);
+    while (const std::size_t count = engine.request(requests)) {
+      const std::span all = std::span(requests).first(count);
+      if (engine.noisy()) {
+        const std::uint32_t next =
+            engine.read([](const BlockGrid&, const Blocks& blocks) { return blocks.samples(7); });
+        ++told;
+        asked_7 += all[0].id == grid.name(7, next, helpers::shared_list()->position(next)) ? 1 : 0;
+      }
+      std::vector<float> values;
+      for (const Request& request : all) {
+        // The second value of a point is another one, but not at first.
+        const float value = request.again && engine.stats().samples > 100 ? 5.0f : 1.0f;
+        values.insert(values.end(), {value, 1});
+      }
+      engine.deliver(all, values);
+    }
+    EXPECT_EQ(told > 200, noise == Noise::automatic);
+    EXPECT_EQ(asked_7, told);
+    EXPECT_GT(engine.stats().differing_probes, 5u);
+  }
 }
 
 TEST(OtherMeasure, MeasuresThatLookAtValuesPreferABusyPart) {

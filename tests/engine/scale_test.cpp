@@ -234,9 +234,9 @@ TEST(Weight, AChannelWithoutOneChangesNothingForTheOthers) {
       const RandomPicture f(seed);
       SynthesisSettings settings = settings_of(64, 48, 2);
       settings.priority.measure = measure;
-      settings.channel_weights =
-          seed % 2 == 0 ? std::vector<float>{1, 0} : std::vector<float>{0, 1};
       const std::size_t seen = seed % 2;
+      settings.channel_settings.resize(2);
+      settings.channel_settings[1 - seen].role = ChannelRole::passive;
       const auto picture = [&](unsigned kind, std::vector<float>& all) {
         oracle::Random random(seed);
         const auto sampler = [&](double x, double y) {
@@ -277,7 +277,7 @@ TEST(Weight, AChannelWithoutOneChangesNothingForTheOthers) {
 
 TEST(Weight, AnAuxiliaryChannelHasNoEffectOnTheErrorOfTheOther) {
   SynthesisSettings settings = settings_of(256, 256, 2);
-  settings.channel_weights = {1, 0};
+  settings.channel_settings = {{}, {ChannelRole::passive}};
   const auto picture = [&](double s) {
     const auto sampler = [&](double x, double y) {
       return std::array{busy_corner(x, y), s * (1 + std::sin(0.05 * x) * std::cos(0.03 * y))};

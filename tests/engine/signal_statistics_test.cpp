@@ -96,6 +96,29 @@ TEST(SignalStatistics, TheDoubtIsTheLeast) {
   }
 }
 
+TEST(SignalStatistics, ChannelsWithoutWeightChangeNotABit) {
+  for (unsigned seed = 0; seed < 50; ++seed) {
+    oracle::Random random(seed);
+    const std::size_t own = 1 + random.below(4), others = 1 + random.below(20);
+    std::vector<double> means;
+    std::vector<float> weights;
+    for (std::size_t c = 0; c < own; ++c) {
+      means.push_back(random.uniform(-5, 5));
+      weights.push_back(static_cast<float>(random.uniform(0.01, 1)));
+    }
+    const Corners alone = random_corners(100, means, 1, seed);
+    const SignalStatistics expected = settled(alone, weights);
+    Corners corners = alone;
+    weights.resize(own + others);
+    for (auto& corner : corners) {
+      for (std::size_t c = 0; c < others; ++c) corner.push_back(random.value() * 1e30f);
+    }
+    const SignalStatistics signal = settled(corners, weights);
+    EXPECT_EQ(signal.variance(), expected.variance()) << seed;
+    EXPECT_EQ(signal.rounding(), expected.rounding()) << seed;
+  }
+}
+
 TEST(SignalStatistics, NothingAtAllLeavesDoubtToo) {
   // Whoever asks for a variance of 0 learns that it is not settled.
   for (const SignalStatistics& signal :

@@ -154,7 +154,7 @@ TEST(SteeredSynthesis, AChannelWithoutWeightChangesNothing) {
   for (const Steer steer : {Steer::relative, Steer::display}) {
     for (const PriorityMeasure measure : measures) {
       SynthesisSettings settings = steered(steer, measure, 2);
-      settings.channel_weights = {1, 0};
+      settings.channel_settings = {{}, {ChannelRole::passive}};
       const auto with = [&](double other) {
         return counts(settings, [=](double x, double y) {
           return std::array{dusk(x, y), other * std::cos(0.3 * x + y)};
@@ -171,7 +171,7 @@ TEST(SteeredSynthesis, WithoutAnyWeightAllBlocksAreSampledEvenly) {
   for (const Steer steer : {Steer::relative, Steer::display}) {
     for (const PriorityMeasure measure : measures) {
       SynthesisSettings settings = steered(steer, measure);
-      settings.channel_weights = {0};
+      settings.channel_settings = {{ChannelRole::passive}};
       const auto all = counts(settings, dusk);
       const auto [least, most] = std::minmax_element(all.begin(), all.end());
       EXPECT_LT(*most, 1.5 * *least);

@@ -315,5 +315,30 @@ TEST(Steering, MoreSamplesOfAFunctionWithoutNoiseGainLess) {
   EXPECT_EQ(noisy.gain(4), 1);
 }
 
+TEST(Steering, NoiseThatIsNoticedIsNoiseThatWasKnown) {
+  const std::vector<float> weights{0.5f, 2};
+  const Store blocks = random_blocks(weights, 20, 3);
+  for (const PrioritySettings& settings : steered()) {
+    Steering early(settings, false, weights, blocks.size());
+    early.notice_noise(blocks);
+    EXPECT_TRUE(early.absorbed(blocks, 0));
+    Steering late = settled(settings, false, weights, blocks);
+    const Steering exact = settled(settings, false, weights, blocks);
+    const Steering known = settled(settings, true, weights, blocks);
+    late.notice_noise(blocks);
+    std::size_t others = 0;
+    for (std::uint32_t block = 0; block < blocks.size(); ++block) {
+      const auto worth = [&](const Steering& steering) {
+        return steering.residual(blocks, block, [](std::size_t) { return 1e-3f; });
+      };
+      EXPECT_EQ(worth(early), worth(known));
+      EXPECT_EQ(worth(late), worth(known));
+      others += worth(exact) != worth(known) ? 1 : 0;
+    }
+    EXPECT_GT(others, 10u);
+    EXPECT_EQ(late.gain(4), 1);
+  }
+}
+
 }  // namespace
 }  // namespace freqsynth

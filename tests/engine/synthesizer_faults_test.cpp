@@ -128,9 +128,9 @@ TEST(Faults, SamplerThatThrowsLeavesAnEngineThatGoesOn) {
         engine.run(sampler, at_samples(900), SerialExecutor{}, KeepGoing{}, batch);
       };
       EXPECT_THAT(run, ThrowsMessage<SamplerError>(HasSubstr("lamp")));
-      EXPECT_EQ(engine.stats().samples, fatal - 1) << "what was returned before is delivered";
+      EXPECT_EQ(helpers::calls_of(engine), fatal - 1) << "what was returned before is delivered";
       run();
-      EXPECT_EQ(calls, 901u) << "only the failed call is repeated";
+      EXPECT_EQ(calls, helpers::calls_of(engine) + 1) << "only the failed call is repeated";
       EXPECT_TRUE(helpers::same_image(engine.image(), straight.image()));
     }
   }
@@ -154,7 +154,7 @@ TEST(Faults, BatchSamplerThatThrowsLosesItsBatchOnly) {
     } catch (const SamplerError&) {
       ++failures;
     }
-    ASSERT_EQ(engine.stats().samples, delivered);
+    ASSERT_EQ(helpers::calls_of(engine), delivered);
   }
   EXPECT_GT(failures, 79) << "99 were measured";
   EXPECT_TRUE(helpers::same_image(engine.image(), straight.image()));
@@ -172,24 +172,25 @@ TEST(Faults, SamplerMayThrowOnAnyThread) {
     return picture(x, y);
   };
   int failures = 0;
-  while (engine.stats().samples < 1500) {
+  while (engine.stopped() != StopReason::samples) {
     try {
       engine.run(sampler, at_samples(1500), pool);
     } catch (const SamplerError&) {
       ++failures;
     }
-    ASSERT_EQ(engine.stats().samples, static_cast<std::uint64_t>(returned.load()));
+    ASSERT_EQ(helpers::calls_of(engine), static_cast<std::uint64_t>(returned.load()));
   }
   EXPECT_GE(failures, 12) << "15 throws, of which two may fall into one run";
   EXPECT_TRUE(helpers::same_image(engine.image(), straight.image()));
 }
 
-/// An engine of which one wave of 20 requests is in the host's hands.
+/// An engine of which one wave of 20 samples is in the host's hands: some are asked for twice.
 class Misuse : public testing::Test {
  protected:
-  Misuse() : engine_(settings_of(40, 32, 1, 20)), requests_(20) {
+  Misuse() : engine_(settings_of(40, 32, 1, 20)), requests_(100) {
     engine_.set_stop(at_samples(500));
-    EXPECT_EQ(engine_.request(requests_), 20u);
+    requests_.resize(engine_.request(requests_));
+    EXPECT_GE(requests_.size(), 23u);
     for (const Request& request : requests_) values_.push_back(picture(request.x, request.y));
   }
 
@@ -226,7 +227,8 @@ TEST_F(Misuse, UnknownIdIsRefused) {
 
 TEST_F(Misuse, UnknownSlotIsRefused) {
   Request wrong = requests_[3];
-  for (const std::uint32_t slot : {4u, 20u, 0xffffffffu}) {
+  const auto beyond = static_cast<std::uint32_t>(requests_.size());
+  for (const std::uint32_t slot : {4u, beyond, 0xffffffffu}) {
     wrong.slot = slot;
     expect_refused({requests_[0], wrong}, std::to_string(wrong.id));
   }
@@ -263,15 +265,19 @@ TEST_F(Misuse, DeliveryAfterGivingBackIsRefused) {
 TEST_F(Misuse, RequestOfAnEarlierWaveIsRefused) {
   const std::vector<Request> old = requests_;
   engine_.deliver(requests_, values_);
-  ASSERT_EQ(engine_.request(requests_), 20u);
+  requests_.resize(100);
+  requests_.resize(engine_.request(requests_));
+  ASSERT_GE(requests_.size(), 20u);
   EXPECT_THROW(engine_.deliver(old, values_), std::invalid_argument);
-  for (std::size_t i = 0; i < 20; ++i) values_[i] = picture(requests_[i].x, requests_[i].y);
+  values_.clear();
+  for (const Request& request : requests_) values_.push_back(picture(request.x, request.y));
   expect_unharmed();
 }
 
 TEST_F(Misuse, WrongNumberOfValuesIsRefused) {
+  const std::string all = std::to_string(values_.size());
   EXPECT_THAT([&] { engine_.deliver(requests_, std::span(values_).first(19)); },
-              ThrowsMessage<std::invalid_argument>(AllOf(HasSubstr("19"), HasSubstr("20"))));
+              ThrowsMessage<std::invalid_argument>(AllOf(HasSubstr("19"), HasSubstr(all))));
   EXPECT_THROW(engine_.deliver(std::span(requests_).first(3), values_), std::invalid_argument);
   EXPECT_EQ(engine_.stats().samples, 0u);
   expect_unharmed();

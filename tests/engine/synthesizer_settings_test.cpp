@@ -71,16 +71,17 @@ TEST(SynthesizerSettings, NeighboursKeepALuckyBlockInDoubt) {
 }
 
 TEST(SynthesizerSettings, NoisySamplersGetPicturesFinishedForNoise) {
-  for (const bool noisy : {false, true}) {
+  for (const Noise noise : {Noise::automatic, Noise::none, Noise::present}) {
     SynthesisSettings settings = settings_of(32, 32);
-    settings.noisy = noisy;
+    settings.noise = noise;
     Synthesizer engine(settings);
     engine.run(picture, at_samples_per_pixel(2));
-    const auto coefficients = helpers::coefficients_of(engine.finished_image());
-    const auto plain = helpers::coefficients_of(engine.finished_image(FinishSettings{}));
-    const auto for_noise = helpers::coefficients_of(engine.finished_image(FinishSettings::noisy()));
-    EXPECT_EQ(coefficients == plain, !noisy);
-    EXPECT_EQ(coefficients == for_noise, noisy);
+    const auto finished = [&](Noise wanted) {
+      return helpers::coefficients_of(engine.finished_image({.noise = wanted}));
+    };
+    EXPECT_EQ(finished(Noise::automatic) == finished(Noise::none), noise != Noise::present);
+    EXPECT_EQ(finished(Noise::automatic) == finished(Noise::present), noise == Noise::present);
+    EXPECT_EQ(engine.noisy(), noise == Noise::present);
   }
 }
 
@@ -131,9 +132,9 @@ TEST(SynthesizerSettings, ImportantBlocksGetMoreSamples) {
 }
 
 TEST(SynthesizerSettings, ChannelWeightsChooseWhatMatters) {
-  const auto sampled_with = [](std::vector<float> weights) {
+  const auto sampled_with = [](std::vector<ChannelSettings> channels) {
     SynthesisSettings settings = settings_of(64, 32, 2);
-    settings.channel_weights = std::move(weights);
+    settings.channel_settings = std::move(channels);
     settings.priority.exploration = 0;
     Synthesizer engine(settings);
     // The first channel varies in the left three columns, the second one in the right ones.
@@ -144,12 +145,13 @@ TEST(SynthesizerSettings, ChannelWeightsChooseWhatMatters) {
         at_samples(2000));
     return halves(engine.image());
   };
-  const auto first = sampled_with({1, 0});
-  const auto second = sampled_with({0, 1});
+  const auto first = sampled_with({{}, {ChannelRole::passive}});
+  const auto second = sampled_with({{ChannelRole::passive}, {}});
   // 6.8 and 6.7 times as many were measured: flat blocks end their steps, too.
   EXPECT_GT(first.first, 6 * first.second);
   EXPECT_GT(second.second, 6 * second.first);
-  EXPECT_EQ(sampled_with({0.5f, 0.5f}), sampled_with({})) << "equal weights are the default";
+  EXPECT_EQ(sampled_with({{.weight = 0.5f}, {.weight = 0.5f}}), sampled_with({}))
+      << "equal weights are the default";
 }
 
 TEST(SynthesizerSettings, ImagesMayShareAList) {
@@ -263,9 +265,23 @@ TEST(SynthesizerSettings, WrongSettingsAreNamed) {
   refuses([](auto& s) { s.priority.steer = static_cast<Steer>(7); }, "priority.steer", "7");
   refuses([](auto& s) { s.max_samples_per_block = 0; }, "max_samples_per_block", "0");
   refuses([](auto& s) { s.max_samples_per_block = 1050626; }, "max_samples_per_block", "1050626");
-  refuses([](auto& s) { s.channel_weights = {1, 2, 3}; }, "channel_weights", "3");
-  refuses([](auto& s) { s.channel_weights = {1, -2}; }, "channel_weights", "-2");
-  refuses([](auto& s) { s.channel_weights = {1, nan}; }, "channel_weights", "nan");
+  const auto weighs = [](auto& s, float weight) { s.channel_settings = {{}, {.weight = weight}}; };
+  refuses([](auto& s) { s.channel_settings.resize(3); }, "channel_settings", "3");
+  refuses([=](auto& s) { weighs(s, -2); }, "channel_settings' weights", "-2");
+  refuses([=](auto& s) { weighs(s, 0); }, "channel_settings' weights", "0");
+  refuses([=](auto& s) { weighs(s, nan); }, "channel_settings' weights", "nan");
+  refuses(
+      [](auto& s) {
+        s.channel_settings = {{}, {static_cast<ChannelRole>(7)}};
+      },
+      "channel_settings' roles", "7");
+  refuses(
+      [](auto& s) {
+        s.channel_settings = {{ChannelRole::nearest}, {}};
+      },
+      "channel_settings has the role nearest for channel", "0");
+  refuses([](auto& s) { s.channel_settings.assign(2, {ChannelRole::nearest}); },
+          "channel_settings has", "2");
   refuses([](auto& s) { s.importance = {1, 1}; }, "importance", "2");
   refuses([](auto& s) { s.importance = {1, 1, 1, 1, 1, -3}; }, "importance", "-3");
   refuses([](auto& s) { s.importance = {1, 1, nan, 1, 1, 1}; }, "importance", "nan");

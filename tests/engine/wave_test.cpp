@@ -159,6 +159,44 @@ TEST(Wave, WhatCameBackGoesOutFirst) {
   EXPECT_EQ(wave.hand_out(), 2u);
 }
 
+TEST(Wave, RepeatedSlotsComeLastAndAreNoSamples) {
+  Wave wave(2, 1);
+  for (int repetition = 0; repetition < 2; ++repetition) {
+    wave.reserve(5);
+    for (std::uint32_t slot = 0; slot < 3; ++slot) wave.add({10 + slot, 20 + slot});
+    wave.repeat(2);
+    wave.repeat(0);
+    EXPECT_EQ(wave.samples(), 3u);
+    EXPECT_EQ(wave.size(), 5u);
+    EXPECT_EQ(wave.values().size(), 6u);
+    for (std::uint32_t slot = 0; slot < 5; ++slot) {
+      const std::uint32_t place = slot == 3 ? 2 : slot == 4 ? 0 : slot;
+      EXPECT_EQ(wave.slot(slot).block, 10 + place);
+      EXPECT_EQ(wave.slot(slot).index, 20 + place);
+      EXPECT_EQ(wave.slot(slot).repeated, slot < 3 ? Wave::Slot::none : place);
+      EXPECT_EQ(wave.hand_out(), slot);
+    }
+    std::size_t samples = 0, all = 0;
+    for (const std::uint32_t slot : {4u, 1u, 0u, 3u, 2u}) {
+      EXPECT_FALSE(wave.complete());
+      const float values[] = {static_cast<float>(slot), 7, -static_cast<float>(slot)};
+      wave.claim(slot);
+      wave.deliver(slot, values);
+      samples += slot < 3 ? 1 : 0;
+      EXPECT_EQ(wave.delivered(), ++all);
+      EXPECT_EQ(wave.delivered_samples(), samples);
+    }
+    EXPECT_TRUE(wave.complete());
+    for (std::uint32_t slot = 0; slot < 5; ++slot) {
+      EXPECT_EQ(wave.values(slot)[0], static_cast<float>(slot));
+      EXPECT_EQ(wave.values(slot)[1], 7);
+      EXPECT_EQ(wave.nearest(slot)[0], -static_cast<float>(slot));
+    }
+    wave.clear();
+    EXPECT_EQ(wave.samples() + wave.size() + wave.delivered() + wave.delivered_samples(), 0u);
+  }
+}
+
 TEST(Wave, AnEmptyWaveIsNotComplete) {
   Wave wave(2);
   EXPECT_FALSE(wave.complete());

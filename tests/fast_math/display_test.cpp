@@ -6,8 +6,11 @@
 
 #include <array>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "freqsynth/jpeg/display_encoding.h"
@@ -25,17 +28,22 @@ namespace {
 constexpr std::array<std::uint32_t, 5> faults = {0x7fc00000u, 0xffc00001u, 0x7f800001u,  // NaN
                                                  0x7f800000u, 0xff800000u};              // infinite
 
-/// Every fourth value is a fault; counts them.
-struct FaultySampler {
-  std::uint64_t* calls;
-  std::uint64_t* bad;
-
-  float next(double x) const {
-    const std::uint64_t call = (*calls)++;
-    if (call % 4 != 3) return static_cast<float>(x / 100);
-    ++*bad;
-    return std::bit_cast<float>(faults[call / 4 % faults.size()]);
+/// Every fourth position has a fault.
+class FaultySampler {
+ public:
+  /// Number of the position, in the order in which they come for the first time.
+  std::size_t number(double x, double y) {
+    return numbers_.try_emplace({x, y}, numbers_.size()).first->second;
   }
+  static float value(std::size_t number, double x) {
+    if (number % 4 != 3) return static_cast<float>(x / 100);
+    return std::bit_cast<float>(faults[number / 4 % faults.size()]);
+  }
+  /// Faults so far.
+  [[nodiscard]] std::size_t bad() const { return numbers_.size() / 4; }
+
+ private:
+  std::map<std::pair<double, double>, std::size_t> numbers_;
 };
 
 TEST(FastMath, DisplaySamplerDoesNotHideFaults) {
@@ -44,21 +52,22 @@ TEST(FastMath, DisplaySamplerDoesNotHideFaults) {
     settings.width = settings.height = 64;
     settings.channels = channels;
     Synthesizer engine(settings);
-    std::uint64_t calls = 0, bad = 0;
-    const FaultySampler faulty{&calls, &bad};
+    FaultySampler faulty;
     const StopRule stop{.samples_per_pixel = 0.25};
     if (channels == 1) {
-      engine.run(DisplaySampler([&](double x, double) { return faulty.next(x); }, 1), stop);
+      const auto gray = [&](double x, double y) { return faulty.value(faulty.number(x, y), x); };
+      engine.run(DisplaySampler(gray, 1), stop);
     } else {
-      const auto color = [&](double x, double) {
+      const auto color = [&](double x, double y) {
         std::array<float, 3> rgb{0.25f, 0.5f, 0.75f};
-        rgb[calls / 4 % 3] = faulty.next(x);
+        const std::size_t number = faulty.number(x, y);
+        rgb[number / 4 % 3] = faulty.value(number, x);
         return rgb;
       };
       engine.run(DisplaySampler(color, 3), stop);
     }
-    EXPECT_GT(bad, 200u);
-    EXPECT_EQ(engine.stats().bad_samples, bad) << channels;
+    EXPECT_GT(faulty.bad(), 200u);
+    EXPECT_EQ(engine.stats().bad_samples, faulty.bad()) << channels;
   }
 }
 

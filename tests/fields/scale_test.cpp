@@ -35,7 +35,7 @@ TEST(Scales, AChannelOfWeightZeroChangesNothing) {
   const field_cases::Field field = field_cases::random_function(helpers::member_seed, 1);
   auto settings = field_cases::settings_of(field.width, field.height);
   settings.channels = 2;
-  settings.channel_weights = {1, 0};
+  settings.channel_settings = {{}, {freqsynth::ChannelRole::passive}};
   std::vector<std::vector<float>> pictures;
   for (const double scale : {0.0, 1.0, 1e9, 1e30}) {
     const field_cases::Sampler sampler = [&](double x, double y, std::uint64_t,

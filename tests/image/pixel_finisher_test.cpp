@@ -188,7 +188,7 @@ TEST(PixelFinisher, SettingsForNoiseAreBetterForNoiseAndWorseForEdges) {
     return std::sqrt(sum / max_terms);
   };
   const auto slope = [](std::size_t pixel) { return (static_cast<double>(pixel % 8) + 0.5) / 8; };
-  const FinishSettings plain, noisy = FinishSettings::noisy();
+  const FinishSettings plain, noisy{.noise = Noise::present};
   double plain_error = 0, noisy_error = 0;
   for (std::size_t seed = 0; seed < 20; ++seed) {
     const FittedBlock block(256, [&](const SequencePosition& p, std::size_t n) {
@@ -213,6 +213,22 @@ TEST(PixelFinisher, SettingsForNoiseAreBetterForNoiseAndWorseForEdges) {
   };
   EXPECT_LT(error(block.finished(1089, plain), edge_mean),
             error(block.finished(1089, noisy), edge_mean));
+}
+
+TEST(PixelFinisher, DoubtIsThatOfTheNoise) {
+  // 25 samples are too few to measure it.
+  for (const std::size_t samples : {25u, 256u}) {
+    const FittedBlock block(samples);
+    const auto with = [&](const FinishSettings& settings) {
+      const Block pixels = block.finished(samples, settings);
+      return std::vector<float>(pixels.begin(), pixels.end());
+    };
+    const auto doubted = with({.doubt = 3});
+    EXPECT_EQ(with({.noise = Noise::automatic, .doubt = 3, .noisy_doubt = 7}), doubted);
+    EXPECT_EQ(with({.noise = Noise::none, .doubt = 3, .measure_doubt = false}), doubted);
+    EXPECT_EQ(with({.noise = Noise::present, .noisy_doubt = 3, .measure_doubt = false}), doubted);
+    EXPECT_EQ(with({.noise = Noise::present, .noisy_doubt = 3}) == doubted, samples == 25);
+  }
 }
 
 TEST(PixelFinisher, ConvergesToTheMeansOfAnEdgeWhereTheFitDoesNot) {
@@ -277,6 +293,9 @@ TEST(PixelFinisher, RefusesSettingsOutOfRange) {
   const auto list = SharedInverseList(InverseListSettings{});
   FinishSettings settings;
   settings.doubt = -1;
+  EXPECT_THROW(PixelFinisher(list, settings), std::invalid_argument);
+  settings = {};
+  settings.noisy_doubt = NAN;
   EXPECT_THROW(PixelFinisher(list, settings), std::invalid_argument);
   settings = {};
   settings.shrinkage = std::numeric_limits<double>::infinity();

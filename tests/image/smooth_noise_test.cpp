@@ -195,7 +195,7 @@ struct Bernoulli {
 
 /// Mean of the picture over the mean of all samples.
 double light_kept(double p, double rate, std::uint64_t seed) {
-  SynthesisSettings settings{.width = 128, .height = 128, .channels = 1, .noisy = true};
+  SynthesisSettings settings{.width = 128, .height = 128, .channels = 1, .noise = Noise::present};
   settings.seed = seed;
   Synthesizer engine(settings);
   double sum = 0, samples = 0;

@@ -144,7 +144,7 @@ TEST(QuantizationTarget, TheToleranceIsAShareOfTheQuantizersOwnError) {
   target.steps.assign(3, filled(7));
   target.tolerance = 0.5;
   // 192 errors that are uniform in -1/2 .. 1/2 of a step.
-  EXPECT_DOUBLE_EQ(target.allowed_error(), 0.5 * 192 / 12);
+  EXPECT_DOUBLE_EQ(target.allowed_error(3), 0.5 * 192 / 12);
 }
 
 TEST(QuantizationTarget, EvenlySpreadSamplesConvergeFasterBeyondOneAPixel) {
@@ -169,7 +169,7 @@ TEST(QuantizationTarget, NoiseIsSampledUntilTheQuantizerHardlyNotices) {
     quantization.luminance = scale_table(luminance_table(), 100);
     SynthesisSettings settings{.width = 64, .height = 64, .channels = 1};
     settings.quantization = quantization_target(quantization, 1);
-    settings.noisy = noisy;
+    settings.noise = noisy ? Noise::present : Noise::none;
     settings.list.positions = SamplePositions::lattice;
     Synthesizer engine(settings);
     EXPECT_EQ(engine.run(noise, {}).reason, StopReason::threshold);

@@ -157,6 +157,21 @@ TEST_P(QuantizerPriority, IsTheErrorAboveTheTargetPerSample) {
   EXPECT_GT(missed, 50u);
 }
 
+TEST(QuantizerMeasure, NoiseThatIsNoticedIsNoiseThatWasKnown) {
+  Image image;
+  QuantizerMeasure noticed(target_of(0.25), {}, false, 6, 300);
+  QuantizerMeasure exact(target_of(0.25), {}, false, 6, 300);
+  QuantizerMeasure known(target_of(0.25), {}, true, 6, 300);
+  const float values[] = {300, 500};
+  for (int n = 0; n < 200; ++n) {
+    image.blocks.absorb(2, values);
+    for (QuantizerMeasure* one : {&noticed, &exact, &known}) one->absorbed(image.view(), 2, 1);
+  }
+  EXPECT_LT(exact.priority(image.view(), 2, 1), known.priority(image.view(), 2, 1));
+  EXPECT_TRUE(noticed.notice_noise(image.view()));
+  EXPECT_EQ(noticed.priority(image.view(), 2, 1), known.priority(image.view(), 2, 1));
+}
+
 TEST(QuantizerMeasure, NoBlockIsDoneBeforeALattice) {
   Image image;
   QuantizerMeasure measure(target_of(0.25), {.uncertainty = 0}, false, 6, 300);

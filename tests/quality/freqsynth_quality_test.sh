@@ -79,7 +79,8 @@ cmp <(figures a.csv) <(figures d.csv) || fail "a broken reference was taken"
 "$program" "${small[@]}" --seeds 1 --csv f.csv
 ! cmp -s <(figures a.csv) <(figures f.csv) || fail "--seeds changes nothing"
 "$program" --quick --scenes zoneplate --methods freqsynth --spp 1/2 --csv g.csv
-grep -q '^zoneplate,freqsynth,0.5,128,128,1,8192,' g.csv || fail "--quick: $(tail -1 g.csv)"
+# Of 8192 calls; with those that are asked for twice it may be one less.
+grep -q '^zoneplate,freqsynth,0.5,128,128,1,819[12],' g.csv || fail "--quick: $(tail -1 g.csv)"
 
 # Path-traced scenes have references of four times as many samples.
 "$program" "${small[@]}" --scenes cornell --csv h.csv

@@ -100,7 +100,7 @@ std::uint64_t strict() {
 
 std::uint64_t weighted() {
   SynthesisSettings settings{.width = 100, .height = 60};
-  settings.channel_weights = {0.2f, 0.7f, 0.1f};
+  settings.channel_settings = {{.weight = 0.2f}, {.weight = 0.7f}, {.weight = 0.1f}};
   for (int i = 0; i < 13 * 8; ++i) settings.importance.push_back(static_cast<float>(i % 5));
   return hash_of(settings, rgb, {.samples_per_pixel = 1.5});
 }
@@ -112,8 +112,8 @@ std::uint64_t noisy() {
       values[i] = static_cast<float>(picture(requests[i].x, requests[i].y) * 2 * noise);
     }
   };
-  return hash_of({.width = 128, .height = 96, .channels = 1, .noisy = true}, sampler,
-                 {.samples_per_pixel = 3});
+  return hash_of({.width = 128, .height = 96, .channels = 1, .noise = freqsynth::Noise::present},
+                 sampler, {.samples_per_pixel = 3});
 }
 
 std::uint64_t until_quantized() {
@@ -214,12 +214,12 @@ constexpr Configuration configurations[] = {
     {"change", change, 0xf420ccd99ee56ee1u},
     {"strict", strict, 0x5dfd09132c022697u},
     {"weighted", weighted, 0x1274fc214c9de2aau},
-    {"noisy", noisy, 0xbad59b6bab46c3f2u},
+    {"noisy", noisy, 0x6d4f3af624c8e345u},
     {"until_quantized", until_quantized, 0x11951aaf9aaa1f6bu},
     {"threshold", threshold, 0xc78a700c0550d69cu},
     {"capped", capped, 0x10610de2f3f8242du},
     {"other_list", other_list, 0x1da3d210a7d28fcfu},
-    {"bad_values", bad_values, 0xe64e145bfb56649au},
+    {"bad_values", bad_values, 0x36879cdb75ed31c2u},
     {"high_range", high_range, 0x64bec56cae182f41u},
     {"many_channels", many_channels, 0x51390f9af5ae5734u},
     {"outputs", outputs, 0xd36d99ce9d2d0614u},

@@ -70,18 +70,24 @@ inline freqsynth::StopRule at_threshold(double threshold) {
   return stop;
 }
 
-/// Positions in the order in which run() asks for them, with one sample in flight.
+/// Positions in the order in which run() asks for them for the first time.
 template <class Function>
 std::vector<Point> asked_points(freqsynth::Synthesizer& engine, const freqsynth::StopRule& stop,
                                 Function function) {
   std::vector<Point> points;
   engine.run(
-      [&](double x, double y) {
-        points.push_back({x, y});
-        return function(x, y);
+      [&](const freqsynth::Request& request) {
+        if (!request.again) points.push_back({request.x, request.y});
+        return function(request.x, request.y);
       },
       stop);
   return points;
+}
+
+/// Calls of the sampler that succeeded.
+inline std::uint64_t calls_of(const freqsynth::Synthesizer& engine) {
+  const freqsynth::SynthesisStats stats = engine.stats();
+  return stats.samples + stats.probes;
 }
 
 /// Samples per block, row by row.

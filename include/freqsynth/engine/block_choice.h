@@ -42,6 +42,9 @@ class BlockChoice {
   /// See BlockMeasure.
   void use_units(const BlockView<R>& view, float factor);
 
+  /// See BlockMeasure.
+  bool notice_noise(const BlockView<R>& view) { return measure_.notice_noise(view); }
+
   /// A block has taken in a sample, which changed it by `change`.
   void absorbed(const BlockView<R>& view, std::uint32_t block, float change) {
     measure_.absorbed(view, block, change);

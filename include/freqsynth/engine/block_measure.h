@@ -37,6 +37,9 @@ concept BlockMeasure = requires(M& measure, const M& known, const BlockView<R>& 
   /// Blocks use other units from now on (BlockStore::use_units), in which a square over all
   /// channels is `value` times what it was.
   { measure.use_units(view, value) } -> std::same_as<void>;
+  /// Values turn out to be estimates. Returns whether the priorities of all blocks are others by
+  /// that.
+  { measure.notice_noise(view) } -> std::same_as<bool>;
   /// A block has taken in a sample, which changed it by `value`.
   { measure.absorbed(view, block, value) } -> std::same_as<void>;
   /// Priority of a block that has had a sample, and is not full; `value` is a factor on it. 0 when
@@ -82,6 +85,13 @@ class ChangeMeasure {
   void use_units(const BlockView<R>&, float factor) {
     if (steering_.settled()) return;
     for (float& variation : variations_) variation *= factor;
+  }
+
+  /// See BlockMeasure. What changes have been is known in the unit that they were seen in.
+  template <Refiner R>
+  bool notice_noise(const BlockView<R>& view) {
+    steering_.notice_noise(view.blocks);
+    return false;
   }
 
   /// See BlockMeasure.
@@ -142,6 +152,8 @@ class ResidualBook {
 
   /// In other units all residuals are so many times as large.
   void rescale(float factor) {
+    // The sum is not added up anew for channels that have no say here.
+    if (factor == 1) return;
     sum_ = 0;
     for (float& residual : residuals_) sum_ += double{residual *= factor};
     for (float& residual : told_) residual *= factor;
@@ -220,6 +232,15 @@ class ResidualMeasure {
   template <Refiner R>
   void use_units(const BlockView<R>&, float factor) {
     if (in_units()) book_.rescale(factor);
+  }
+
+  /// See BlockMeasure.
+  template <Refiner R>
+  bool notice_noise(const BlockView<R>& view) {
+    steering_.notice_noise(view.blocks);
+    if (!steering_.settled()) return false;
+    for (std::uint32_t b = 0; b < view.blocks.size(); ++b) note_steered(view, b);
+    return true;
   }
 
   /// See BlockMeasure.

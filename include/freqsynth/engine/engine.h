@@ -31,6 +31,9 @@
 #include "freqsynth/engine/channel_units.h"
 #include "freqsynth/engine/edge_cache.h"
 #include "freqsynth/engine/exploration.h"
+#include "freqsynth/engine/nearest_samples.h"
+#include "freqsynth/engine/noise.h"
+#include "freqsynth/engine/noise_probes.h"
 #include "freqsynth/engine/pixel_counts.h"
 #include "freqsynth/engine/signal_statistics.h"
 #include "freqsynth/engine/stop_rule.h"
@@ -49,8 +52,11 @@ class Engine {
   /// \param wave         most blocks of a wave; 0: 1/32 of all blocks
   /// \param exploration  see PrioritySettings::exploration
   /// \param seed         of Request::seed
+  /// \param noise        whether `measure` is to be told of noise once it is seen
+  /// \param nearest      channels that come after those of the blocks, see NearestSamples
   Engine(const BlockGrid& grid, BlockStore<R> blocks, M measure, std::vector<float> factors,
-         std::size_t wave, double exploration = 0, std::uint64_t seed = 0);
+         std::size_t wave, double exploration = 0, std::uint64_t seed = 0,
+         Noise noise = Noise::none, std::size_t nearest = 0);
 
   /// Sets when request() stops, from the next wave on. \throws like StopRule::validate().
   void set_stop(const StopRule& stop);
@@ -66,11 +72,22 @@ class Engine {
   /// Share of the allowed samples that is there, 0 without a limit.
   [[nodiscard]] double progress() const;
   /// Most positions that request() hands out before values have to come back.
-  [[nodiscard]] std::size_t wave_size() const { return wave_size_; }
+  [[nodiscard]] std::size_t wave_size() const { return wave_size_ + NoiseProbes::most(wave_size_); }
+  /// Whether values are taken for estimates by now.
+  [[nodiscard]] bool noisy() const {
+    const std::lock_guard lock(mutex_);
+    return noise_ == Noise::present;
+  }
   /// Counters since the engine's creation.
   [[nodiscard]] SynthesisStats stats() const;
   /// The first bad samples, at most 1000.
   [[nodiscard]] std::vector<BadSample> bad_samples() const;
+
+  /// See NearestSamples::pixels().
+  [[nodiscard]] std::vector<float> nearest_pixels(std::size_t channel) const {
+    const std::lock_guard lock(mutex_);
+    return nearest_.pixels(channel);
+  }
 
   /// Calls read(grid, blocks) with the blocks after the last complete wave, which stay as they are
   /// meanwhile.
@@ -92,6 +109,7 @@ class Engine {
     return blocks_.refiner().list().position(index);
   }
   std::optional<StopReason> prepare_wave();
+  std::optional<StopReason> choose_wave();
   void reserve(std::size_t most);
   void choose(std::uint32_t block);
   void choose_lagging(std::size_t most);
@@ -101,9 +119,11 @@ class Engine {
   [[nodiscard]] Request make_request(std::uint32_t slot) const;
   void claim(std::span<const Request> requests);
   void finish_wave();
+  [[nodiscard]] bool take_in_repeated();
+  bool take_in_repeated(const Wave::Slot& slot, const float* values);
   void change_units();
   void route(const Wave::Slot& slot, const float* values);
-  void note(const Wave::Slot& slot, const float* values);
+  void note(std::size_t slot);
   void absorb(std::uint32_t block, const float* values);
   void advance(std::uint32_t block);
 
@@ -115,6 +135,9 @@ class Engine {
   BlockChoice<R, M> choice_;
   Wave wave_;
   PixelCounts pixels_;
+  NearestSamples nearest_;
+  NoiseProbes probes_;
+  Noise noise_;
   BlockSet touched_;     // blocks that the wave asks for, or that it has changed
   std::uint64_t frame_;  // the seed, mixed
   std::size_t wave_size_;

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "freqsynth/basis/float_bits.h"
 #include "freqsynth/basis/mix_bits.h"
 #include "freqsynth/engine/engine.h"
+#include "freqsynth/engine/engine_choice.inl"
 #include "freqsynth/engine/engine_requests.inl"
 
 namespace freqsynth {
@@ -10,15 +12,17 @@ namespace freqsynth {
 template <Refiner R, BlockMeasure<R> M>
 Engine<R, M>::Engine(const BlockGrid& grid, BlockStore<R> blocks, M measure,
                      std::vector<float> factors, std::size_t wave, double exploration,
-                     std::uint64_t seed)
+                     std::uint64_t seed, Noise noise, std::size_t nearest)
     : grid_(grid),
       blocks_(std::move(blocks)),
       cache_(grid, blocks_.refiner().channels()),
       units_(blocks_.refiner().weights()),
       signal_(blocks_.refiner().channels()),
       choice_(std::move(measure), std::move(factors)),
-      wave_(blocks_.refiner().channels()),
+      wave_(blocks_.refiner().channels(), nearest),
       pixels_(grid),
+      nearest_(grid, nearest),
+      noise_(noise),
       touched_(grid.size()),
       frame_(detail::mix_bits(seed + detail::golden_step)),
       exploration_(exploration, grid.size()) {
@@ -51,116 +55,68 @@ std::optional<StopReason> Engine<R, M>::stopped() {
   return wave_.waiting() ? std::nullopt : std::optional(StopReason::waiting);
 }
 
-/// Chooses the blocks of the next wave. \return why there is none
-template <Refiner R, BlockMeasure<R> M>
-std::optional<StopReason> Engine<R, M>::prepare_wave() {
-  if (stats_.samples >= stop_.samples) return reason(StopReason::samples);
-  if (!any_usable_ && blocks_.untouched() == 0 && stats_.samples >= patience_) {
-    return reason(StopReason::exhausted);
-  }
-  const std::size_t most = std::min<std::uint64_t>(wave_size_, stop_.samples - stats_.samples);
-  reserve(most);
-  // In the unit of the priorities. Of a signal that is all 0 so far, everything is below it.
-  const int exponent = choice_.in_units() ? units_.exponent() : 0;
-  const double rule = std::ldexp(stop_.aliasing_threshold, -exponent);
-  const double square = units_.known() || rule == 0 ? rule * rule : double{most_priority};
-  const auto threshold = static_cast<float>(std::min(square, double{most_priority}));
-  choose_lagging(most);
-  while (wave_.size() < most && choice_.top_priority() > threshold) choose(choice_.take());
-  if (!wave_.empty()) return std::nullopt;
-  if (choice_.top_priority() < 0) return reason(StopReason::exhausted);
-  if (stop_.aliasing_threshold > 0) choose_least_sampled(most);
-  return wave_.empty() ? std::optional(reason(StopReason::threshold)) : std::nullopt;
-}
-
-/// Takes all memory that a wave of `most` positions needs until its values are absorbed, so that
-/// nothing can fail on the way.
-template <Refiner R, BlockMeasure<R> M>
-void Engine<R, M>::reserve(std::size_t most) {
-  wave_.reserve(most);
-  pixels_.reserve(most);
-  // Each sample goes to up to four blocks, and each may go on with its corners and what waits.
-  blocks_.reserve(20 * most + cache_.waiting());
-  cache_.reserve(most);
-  bad_.reserve(std::min(bad_.size() + most, most_bad_reported));
-  // With its own sample a block may take in what its neighbours know before and after it.
-  const std::size_t reach = 2 * SampleSequence::longest_border_run + 2;
-  blocks_.refiner().list().reserve(std::min(blocks_.largest() + reach, blocks_.most_samples()));
-}
-
-template <Refiner R, BlockMeasure<R> M>
-void Engine<R, M>::choose(std::uint32_t block) {
-  const std::uint32_t index = blocks_.samples(block);
-  if (!asked_by_neighbour(block, index)) wave_.add({block, index});
-  touched_.add(block);
-}
-
-/// Chooses blocks that have stayed behind the others.
-template <Refiner R, BlockMeasure<R> M>
-void Engine<R, M>::choose_lagging(std::size_t most) {
-  if (shares_ == 0 || blocks_.untouched() != 0) return;
-  const auto lags = [&](std::uint32_t block, double least) {
-    return blocks_.samples(block) < least * double{choice_.share(block)} && !blocks_.full(block);
-  };
-  exploration_.update(static_cast<double>(stats_.absorbed) / shares_, lags);
-  exploration_.visit(lags, [&](std::uint32_t block) {
-    if (wave_.size() >= most) return false;
-    choice_.take(block);
-    choose(block);
-    return true;
-  });
-}
-
-/// Chooses blocks that the threshold may not pass over yet.
-template <Refiner R, BlockMeasure<R> M>
-void Engine<R, M>::choose_least_sampled(std::size_t most) {
-  for (std::uint32_t block = 0; block < blocks_.size() && wave_.size() < most; ++block) {
-    if (blocks_.samples(block) >= stop_.least_samples) continue;
-    if (blocks_.full(block) || !choice_.wanted(block)) continue;
-    choice_.take(block);
-    choose(block);
-  }
-}
-
-/// Without a usable value no end is a good one.
-template <Refiner R, BlockMeasure<R> M>
-StopReason Engine<R, M>::reason(StopReason why) const {
-  return stats_.samples > 0 && !any_usable_ ? StopReason::unusable : why;
-}
-
-template <Refiner R, BlockMeasure<R> M>
-bool Engine<R, M>::asked_by_neighbour(std::uint32_t block, std::uint32_t index) const {
-  bool asked = false;
-  grid_.visit_sharing(block, position(index), [&](std::uint32_t other, std::uint32_t other_index) {
-    asked = asked || (touched_.contains(other) && blocks_.samples(other) == other_index);
-  });
-  return asked;
-}
-
 /// Takes in a complete wave. Nothing in it throws; see reserve().
 template <Refiner R, BlockMeasure<R> M>
 void Engine<R, M>::finish_wave() {
   // The states of blocks lie all over the memory: fetch those that come soon.
   constexpr std::size_t ahead = 6;
+  const bool others = take_in_repeated();
   if (!units_.fit(wave_.values())) change_units();
-  for (std::size_t i = 0; i < wave_.size(); ++i) {
-    if (i + ahead < wave_.size()) {
+  for (std::size_t i = 0; i < wave_.samples(); ++i) {
+    if (i + ahead < wave_.samples()) {
       const Wave::Slot& soon = wave_.slot(i + ahead);
       blocks_.prefetch(soon.block, soon.index);
     }
-    note(wave_.slot(i), wave_.values(i));
+    note(i);
     route(wave_.slot(i), wave_.values(i));
   }
-  stats_.samples += wave_.size();
+  stats_.samples += wave_.samples();
+  stats_.probes += wave_.size() - wave_.samples();
   ++stats_.waves;
   wave_.clear();
   if (blocks_.untouched() == 0 && !signal_.settled()) {
     signal_.settle(blocks_.refiner().weights());
     choice_.revise_all(view());
+  } else if (others) {
+    choice_.revise_all(view());
   } else {
     choice_.revise(view(), touched_, wave_size_ == 1);
   }
   touched_.clear();
+}
+
+/// Compares the values of positions that were asked for twice. \return whether all priorities are
+/// others by that
+template <Refiner R, BlockMeasure<R> M>
+bool Engine<R, M>::take_in_repeated() {
+  bool seen = false;
+  for (std::size_t i = wave_.samples(); i < wave_.size(); ++i) {
+    seen = take_in_repeated(wave_.slot(i), wave_.values(i)) || seen;
+  }
+  if (!seen || noise_ != Noise::automatic) return false;
+  noise_ = Noise::present;
+  return choice_.notice_noise(view());
+}
+
+/// Two values that differ are two estimates, and their mean is a better one. Of a function without
+/// noise the first one stays as it is. \return whether they differ
+template <Refiner R, BlockMeasure<R> M>
+bool Engine<R, M>::take_in_repeated(const Wave::Slot& slot, const float* values) {
+  float* first = wave_.values(slot.repeated);
+  bool differ = false;
+  for (std::size_t c = 0; c < counts_.size(); ++c) {
+    differ = differ || (counts_[c] && NoiseProbes::differ(first[c], values[c]));
+  }
+  for (std::size_t c = 0; c < counts_.size(); ++c) {
+    if (!is_usable_sample(values[c])) continue;
+    if (!is_usable_sample(first[c])) {
+      first[c] = values[c];
+    } else if (differ) {
+      first[c] = 0.5f * first[c] + 0.5f * values[c];
+    }
+  }
+  stats_.differing_probes += differ ? 1 : 0;
+  return differ;
 }
 
 /// Values have come that blocks cannot take in in their units. To change these rounds nothing.
@@ -178,10 +134,19 @@ void Engine<R, M>::change_units() {
 
 /// Looks at a sample as such.
 template <Refiner R, BlockMeasure<R> M>
-void Engine<R, M>::note(const Wave::Slot& slot, const float* values) {
+void Engine<R, M>::note(std::size_t number) {
   const std::size_t channels = blocks_.refiner().channels();
+  const Wave::Slot& slot = wave_.slot(number);
+  const float* values = wave_.values(number);
   const SequencePosition& place = position(slot.index);
   bool bad = false, ignored = false;
+  if (nearest_.channels() > 0) {
+    const float* others = wave_.nearest(number);
+    nearest_.add(grid_.point(slot.block, place), others);
+    for (std::size_t c = 0; c < nearest_.channels(); ++c) {
+      ignored = ignored || detail::is_nan(others[c]);
+    }
+  }
   for (std::size_t c = 0; c < channels; ++c) {
     if (is_usable_sample(values[c])) {
       signal_.note(c, values[c]);
@@ -248,7 +213,7 @@ template <Refiner R, BlockMeasure<R> M>
 double Engine<R, M>::progress() const {
   const std::lock_guard lock(mutex_);
   if (stop_.samples == std::numeric_limits<std::uint64_t>::max() || stop_.samples == 0) return 0;
-  const auto samples = static_cast<double>(stats_.samples + wave_.delivered());
+  const auto samples = static_cast<double>(stats_.samples + wave_.delivered_samples());
   return samples / static_cast<double>(stop_.samples);
 }
 
@@ -256,7 +221,8 @@ template <Refiner R, BlockMeasure<R> M>
 SynthesisStats Engine<R, M>::stats() const {
   const std::lock_guard lock(mutex_);
   SynthesisStats stats = stats_;
-  stats.samples += wave_.delivered();
+  stats.samples += wave_.delivered_samples();
+  stats.probes += wave_.delivered() - wave_.delivered_samples();
   return stats;
 }
 

@@ -34,7 +34,10 @@ Request Engine<R, M>::make_request(std::uint32_t slot) const {
   const BlockGrid::Point point = grid_.point(asked.block, place);
   const std::size_t side =
       std::min(grid_.block_width(asked.block), grid_.block_height(asked.block));
-  const std::uint64_t id = grid_.name(asked.block, asked.index, place);
+  // Names take 53 bits.
+  const bool again = asked.repeated != Wave::Slot::none;
+  const std::uint64_t id =
+      grid_.name(asked.block, asked.index, place) | (again ? std::uint64_t{1} << 63 : 0);
   return {.x = point.x,
           .y = point.y,
           .id = id,
@@ -43,7 +46,8 @@ Request Engine<R, M>::make_request(std::uint32_t slot) const {
           .seed = detail::mix_bits(id * detail::golden_step + frame_),
           .pixel = pixels_.pixel(point),
           .ordinal = 0,
-          .thread = 0};
+          .thread = 0,
+          .again = again};
 }
 
 /// Claims the slots of all requests. \throws std::invalid_argument, and none is claimed.
@@ -62,7 +66,7 @@ void Engine<R, M>::claim(std::span<const Request> requests) {
 
 template <Refiner R, BlockMeasure<R> M>
 void Engine<R, M>::deliver(std::span<const Request> requests, std::span<const float> values) {
-  const std::size_t channels = blocks_.refiner().channels();
+  const std::size_t channels = blocks_.refiner().channels() + nearest_.channels();
   if (values.size() != requests.size() * channels) {
     detail::refuse(std::to_string(values.size()) + " values for " +
                    std::to_string(requests.size()) + " requests of " + std::to_string(channels) +

@@ -167,7 +167,8 @@ RunReport run_loop(E& engine, std::size_t channels, const SamplerRef& sampler, c
     const auto seconds = [](Clock::duration time) {
       return std::chrono::duration<double>(time).count();
     };
-    return RunReport{reason, seconds(sampling), seconds(Clock::now() - begin - sampling)};
+    return RunReport{reason, seconds(sampling), seconds(Clock::now() - begin - sampling),
+                     engine.stats().differing_probes > 0};
   };
   // A few parts per thread even out the cost of samples.
   const std::size_t concurrency = executor.concurrency();

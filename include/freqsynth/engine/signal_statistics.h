@@ -192,7 +192,7 @@ inline void SignalStatistics::use_units(std::span<const int> exponents,
 
 inline void SignalStatistics::weigh(std::span<const float> weights) {
   constexpr double least = 1e-24;  // of a signal that is 0 at all corners
-  double sum = 0;
+  double sum = 0, channels = 0;
   rounding_ = 0;
   const double largest = double{*std::max_element(weights.begin(), weights.end())};
   for (std::size_t c = 0; c < sums_.size(); ++c) {
@@ -200,13 +200,16 @@ inline void SignalStatistics::weigh(std::span<const float> weights) {
     const double variance = std::max(settled_variances_[c] * square, least);
     variances_[c] = static_cast<float>(variance);
     // Relative to the largest, so that with equal weights it is the plain mean to the bit.
-    if (largest > 0) sum += double{weights[c]} / largest * variance;
+    if (weights[c] == 0) continue;
+    sum += double{weights[c]} / largest * variance;
+    ++channels;
     rounding_ += static_cast<float>(1e-12 * mean_squares_[c] * square) * weights[c];
   }
-  const auto channels = static_cast<double>(sums_.size());
-  sum = sum / channels * double{static_cast<float>(largest * channels)};
   // Where no channel counts, the number of samples does.
-  variance_ = largest > 0 ? static_cast<float>(std::min(sum, double{without_limit})) : 1.0f;
+  variance_ = 1;
+  if (channels == 0) return;
+  sum = sum / channels * double{static_cast<float>(largest * channels)};
+  variance_ = static_cast<float>(std::min(sum, double{without_limit}));
 }
 
 inline float SignalStatistics::most_variance(std::size_t channel) const {
@@ -217,7 +220,9 @@ inline float SignalStatistics::most_variance(std::size_t channel) const {
 
 inline float SignalStatistics::most_variance(std::span<const float> weights) const {
   float most = 0;
-  for (std::size_t c = 0; c < weights.size(); ++c) most += weights[c] * most_variance(c);
+  for (std::size_t c = 0; c < weights.size(); ++c) {
+    if (weights[c] > 0) most += weights[c] * most_variance(c);
+  }
   return most;
 }
 

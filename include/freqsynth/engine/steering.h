@@ -47,6 +47,14 @@ class Steering {
   template <Refiner R>
   bool absorbed(const BlockStore<R>& blocks, std::uint32_t block);
 
+  /// The sampler turns out to return Monte Carlo estimates: as if it had been known.
+  template <Refiner R>
+  void notice_noise(const BlockStore<R>& blocks) {
+    noisy_ = true;
+    if (!settled_) return;
+    for (std::uint32_t block = 0; block < blocks.size(); ++block) look_at(blocks, block);
+  }
+
   /// A residual in squared units of g, weighted over the channels.
   /// \param residual  residual(c): that of a channel, in its unit
   template <Refiner R, class Residual>

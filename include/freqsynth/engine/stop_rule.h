@@ -14,7 +14,8 @@ namespace freqsynth {
 /// When to stop; the first rule that holds ends the synthesis. Rules count from the engine's
 /// creation, so that raising them goes on.
 struct StopRule {
-  /// Samples per pixel, fractions included; rounded to whole samples. >= 0.
+  /// Samples per pixel, fractions included; rounded to whole samples. >= 0. The few that are asked
+  /// for twice, see SynthesisStats::probes, count once, as in all rules.
   double samples_per_pixel = std::numeric_limits<double>::infinity();
   /// Samples in total.
   std::uint64_t samples = std::numeric_limits<std::uint64_t>::max();
@@ -47,12 +48,20 @@ enum class StopReason {
 
 /// Counters since the engine's creation.
 struct SynthesisStats {
-  std::uint64_t samples = 0;   ///< values delivered = sampler calls that succeeded
+  /// Samples that were delivered. With `probes` these are all calls of the sampler that succeeded.
+  std::uint64_t samples = 0;
+  /// Of these, so many were asked for a second time to notice noise: about root `samples`. Stop
+  /// rules and progress do not count the second ones.
+  std::uint64_t probes = 0;
+  /// Probes whose second value was another one than the first: with Noise::none, a sign that the
+  /// sampler is noisy after all; none of many with Noise::present, that it is not.
+  std::uint64_t differing_probes = 0;
   std::uint64_t absorbed = 0;  ///< samples taken in by blocks; border samples count for each block
-  /// Samples with a value that is not is_usable_sample() in a channel that has a weight.
+  /// Samples with a value that is not is_usable_sample() in a channel that steers; or in any that
+  /// is not ChannelRole::nearest, where none steers.
   std::uint64_t bad_samples = 0;
-  /// Samples with such a value in channels of weight 0 only. They are no bad samples: for all other
-  /// channels they are as good as any.
+  /// Samples with such a value in passive channels only, or with NaN in those of
+  /// ChannelRole::nearest. They are no bad samples: for all other channels they are as good as any.
   std::uint64_t ignored_bad_samples = 0;
   std::uint64_t waves = 0;   ///< waves completed
   std::uint64_t blocks = 0;  ///< blocks of the image
@@ -70,6 +79,7 @@ struct RunReport {
   StopReason reason = StopReason::samples;  ///< why it came back
   double sampler_seconds = 0;  ///< wall-clock time with the sampler and its executor at work
   double core_seconds = 0;     ///< the rest: choosing, refining
+  bool noise_seen = false;     ///< see SynthesisStats::differing_probes
 };
 
 }  // namespace freqsynth

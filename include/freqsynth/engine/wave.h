@@ -20,25 +20,35 @@ namespace freqsynth {
 /// The wave that is under way. Nothing but reserve() allocates.
 class Wave {
  public:
-  /// The position that a slot asks for: the next one of a block.
+  /// The position that a slot asks for: the next one of a block, or that of another slot once more.
   struct Slot {
     static constexpr std::uint32_t no_ordinal = 0xffffffffu;  ///< not handed out yet
+    static constexpr std::uint32_t none = 0xffffffffu;        ///< no other slot
 
     std::uint32_t block = 0;             ///< that asks
     std::uint32_t index = 0;             ///< in the block's sequence
     std::uint32_t ordinal = no_ordinal;  ///< in its pixel
     std::uint64_t id = 0;                ///< of the request, once handed out
+    std::uint32_t repeated = none;       ///< the slot whose position it asks for once more
   };
 
   /// Empty, and without room.
-  explicit Wave(std::size_t channels) : channels_(channels) {}
+  /// \param channels  values of a slot
+  /// \param nearest   more values of a slot, which come after these, are kept apart
+  explicit Wave(std::size_t channels, std::size_t nearest = 0)
+      : channels_(channels), nearest_(nearest) {}
 
   /// Makes room for `most` slots.
   void reserve(std::size_t most);
-  /// Adds a slot, for which there is room.
+  /// Adds a slot, for which there is room. It repeats none.
   void add(const Slot& slot);
+  /// Adds a slot that asks for the position of another one once more. No slot is added then but
+  /// such ones.
+  void repeat(std::uint32_t slot);
 
-  /// Number of slots.
+  /// Number of slots that repeat none: the first ones.
+  [[nodiscard]] std::size_t samples() const { return samples_; }
+  /// Number of all slots.
   [[nodiscard]] std::size_t size() const { return slots_.size(); }
   /// Whether there is no slot, and so no wave.
   [[nodiscard]] bool empty() const { return slots_.empty(); }
@@ -63,13 +73,15 @@ class Wave {
   void claim(std::uint32_t slot);
   /// A claimed slot is owed again.
   void let_go(std::uint32_t slot) { states_[slot] = State::owed; }
-  /// Stores the values of a claimed slot.
+  /// Stores all values of a claimed slot.
   void deliver(std::uint32_t slot, const float* values);
   /// Lets a claimed slot wait again.
   void recall(std::uint32_t slot);
 
   /// Number of slots whose values are there.
   [[nodiscard]] std::size_t delivered() const { return delivered_; }
+  /// The same of those that repeat none.
+  [[nodiscard]] std::size_t delivered_samples() const { return delivered_samples_; }
   /// Whether all values are there.
   [[nodiscard]] bool complete() const { return !empty() && delivered_ == slots_.size(); }
   /// The values of a slot that was delivered, one per channel.
@@ -77,8 +89,15 @@ class Wave {
     return values_.data() + slot * channels_;
   }
 
-  /// The values of all slots of a complete wave, `channels` for each.
-  [[nodiscard]] std::span<float> values() { return {values_.data(), size() * channels_}; }
+  /// Its other values.
+  [[nodiscard]] const float* nearest(std::size_t slot) const {
+    return nearest_values_.data() + slot * nearest_;
+  }
+
+  /// Those of the slots of a complete wave that repeat none, `channels` for each.
+  [[nodiscard]] std::span<float> values() { return {values_.data(), samples() * channels_}; }
+  /// The values of a slot that was delivered, to change them.
+  [[nodiscard]] float* values(std::size_t slot) { return values_.data() + slot * channels_; }
 
   /// Ends the wave; its memory stays.
   void clear();
@@ -86,13 +105,14 @@ class Wave {
  private:
   enum class State : std::uint8_t { waiting, owed, claimed, delivered };
 
-  std::size_t channels_;
+  std::size_t channels_, nearest_;
   std::vector<Slot> slots_;
   std::vector<State> states_;
-  std::vector<float> values_;
+  std::vector<float> values_, nearest_values_;
   std::vector<std::uint32_t> returned_;  // slots that wait again
   std::size_t next_ = 0;                 // first slot that was never handed out
-  std::size_t delivered_ = 0;
+  std::size_t samples_ = 0;
+  std::size_t delivered_ = 0, delivered_samples_ = 0;
 };
 
 // ------------------------------------------------------------------------------------ definitions
@@ -102,11 +122,20 @@ inline void Wave::reserve(std::size_t most) {
   states_.reserve(most);
   returned_.reserve(most);
   if (values_.size() < most * channels_) values_.resize(most * channels_);
+  if (nearest_values_.size() < most * nearest_) nearest_values_.resize(most * nearest_);
 }
 
 inline void Wave::add(const Slot& slot) {
   FREQSYNTH_ASSERT(slots_.size() < slots_.capacity());
+  FREQSYNTH_ASSERT(slots_.size() == samples_ && slot.repeated == Slot::none);
   slots_.push_back(slot);
+  states_.push_back(State::waiting);
+  ++samples_;
+}
+
+inline void Wave::repeat(std::uint32_t slot) {
+  FREQSYNTH_ASSERT(slots_.size() < slots_.capacity() && slot < samples_);
+  slots_.push_back({.block = slots_[slot].block, .index = slots_[slot].index, .repeated = slot});
   states_.push_back(State::waiting);
 }
 
@@ -138,14 +167,16 @@ inline void Wave::deliver(std::uint32_t slot, const float* values) {
   FREQSYNTH_ASSERT(states_[slot] == State::claimed);
   states_[slot] = State::delivered;
   std::copy_n(values, channels_, values_.data() + slot * channels_);
+  std::copy_n(values + channels_, nearest_, nearest_values_.data() + slot * nearest_);
   ++delivered_;
+  delivered_samples_ += slot < samples_ ? 1 : 0;
 }
 
 inline void Wave::clear() {
   slots_.clear();
   states_.clear();
   returned_.clear();
-  next_ = delivered_ = 0;
+  next_ = samples_ = delivered_ = delivered_samples_ = 0;
 }
 
 }  // namespace freqsynth

@@ -137,11 +137,11 @@ class BlockPicture {
     });
   }
 
-  /// Channels without a weight are features of the others; where all are without, none is.
-  void smooth(std::span<const float> channel_weights) {
-    std::vector<std::size_t> channels, features;
-    for (std::size_t c = 0; c < channel_weights.size(); ++c) {
-      (channel_weights[c] > 0 ? channels : features).push_back(c);
+  /// Smooths the channels that have a weight.
+  void smooth(std::span<const float> weights, std::span<const std::size_t> features) {
+    std::vector<std::size_t> channels;
+    for (std::size_t c = 0; c < weights.size(); ++c) {
+      if (weights[c] > 0) channels.push_back(c);
     }
     smooth_noise(picture_, channels, features);
   }
@@ -174,17 +174,20 @@ class BlockPicture {
 }  // namespace detail
 
 /// Finished pixels (CoefficientMeaning::pixel_average).
-/// \param list  the one that the blocks were refined with
+/// \param list      the one that the blocks were refined with
+/// \param features  channels without a weight that guide the smoothing of noise
 /// \throws std::invalid_argument when a setting is out of range.
 template <Refiner R>
 [[nodiscard]] FrequencyImage finished_image(const BlockGrid& grid, const BlockStore<R>& blocks,
                                             const SharedInverseList& list,
-                                            const FinishSettings& settings) {
+                                            const FinishSettings& settings,
+                                            std::span<const std::size_t> features = {}) {
   const std::size_t channels = blocks.refiner().channels();
   FrequencyImage image(grid.width, grid.height, channels, CoefficientMeaning::pixel_average);
   detail::ImageAgreement<R> agreement(grid, blocks, list);
   if (settings.residuals) agreement.compare();
-  const bool smooth = settings.residuals && settings.smooth_noise;
+  const bool smooth =
+      settings.residuals && settings.smooth_noise && settings.noise == Noise::present;
   detail::BlockPicture picture(grid, smooth ? channels : 0);
   PixelFinisher finisher(list, settings);
   std::vector<Gap> gaps;
@@ -200,7 +203,7 @@ template <Refiner R>
       if (smooth) picture.add(finisher, fit, block, c, image.coefficients(x, y, c));
     }
   }
-  if (smooth) picture.smooth(blocks.refiner().weights());
+  if (smooth) picture.smooth(blocks.refiner().weights(), features);
   for (std::size_t block = 0; block < blocks.size(); ++block) {
     for (std::size_t c = 0; c < channels; ++c) {
       const auto coefficients = image.coefficients(grid.column(block), grid.row(block), c);

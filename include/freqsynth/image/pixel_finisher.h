@@ -21,6 +21,7 @@
 #include "freqsynth/basis/aligned.h"
 #include "freqsynth/basis/config.h"
 #include "freqsynth/basis/shared_list.h"
+#include "freqsynth/engine/noise.h"
 #include "freqsynth/image/butterworth.h"
 #include "freqsynth/image/pixel_agreement.h"
 #include "freqsynth/refine/refiner.h"
@@ -33,12 +34,17 @@ struct FinishSettings {
   /// false: the paper's estimate, the mean of the filtered fit alone. The settings below are for
   /// true.
   bool residuals = true;
+  /// Whether samples are Monte Carlo estimates. Synthesizer::finished_image() knows what
+  /// `automatic` is; without a synthesis it is `none`.
+  Noise noise = Noise::automatic;
   /// A pixel's residuals with a total weight of w samples count w / (w + doubt). Finite and >= 0.
   double doubt = 0.5;
-  /// The doubt is measured in each block that has a sample per pixel or more: variance of the
-  /// residuals within pixels over that of the pixels' true means. It is right for independent
-  /// samples; of a function without noise evenly spread samples tell more.
-  bool measure_doubt = false;
+  /// The same where there is noise.
+  double noisy_doubt = 1;
+  /// Where there is noise, the doubt is measured in each block that has a sample per pixel or more:
+  /// variance of the residuals within pixels over that of the pixels' true means. It is right for
+  /// independent samples; of a function without noise evenly spread samples tell more.
+  bool measure_doubt = true;
   /// A coefficient F with an expected squared error of e counts max(0, 1 - shrinkage e / F^2).
   /// Finite and >= 0; 1 is the empirical Wiener filter.
   double shrinkage = 2;
@@ -47,18 +53,9 @@ struct FinishSettings {
   /// median; where fewer than 4 of them have samples, in the range of the whole block. Only in
   /// blocks whose residuals are over 1 percent of that range. >= 0; infinite: no bounds.
   double slack = 0.4;
-  /// What noise is left is smoothed over the whole picture, see smooth_noise(): all channels that
-  /// have a weight, with those that have none as features.
-  bool smooth_noise = false;
-
-  /// For a sampler that returns Monte Carlo estimates.
-  [[nodiscard]] static FinishSettings noisy() {
-    FinishSettings settings;
-    settings.doubt = 1;
-    settings.measure_doubt = true;
-    settings.smooth_noise = true;
-    return settings;
-  }
+  /// Where there is noise, what is left of it is smoothed over the whole picture in all channels
+  /// that steer, with those of ChannelRole::feature as guides; see smooth_noise().
+  bool smooth_noise = true;
 
   /// \throws std::invalid_argument naming the field and the value when out of range.
   FREQSYNTH_API void validate() const;

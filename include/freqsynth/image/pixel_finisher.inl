@@ -27,6 +27,7 @@ FREQSYNTH_INLINE void FinishSettings::validate() const {
     detail::require(detail::is_finite(value) && value >= 0, name, value, "a finite number >= 0");
   };
   check(doubt, "doubt");
+  check(noisy_doubt, "noisy_doubt");
   check(shrinkage, "shrinkage");
   detail::require(!detail::is_nan(slack) && slack >= 0, "slack", slack, ">= 0");
 }
@@ -222,9 +223,10 @@ FREQSYNTH_INLINE void PixelFinisher::finish(const BlockFit& fit, std::span<float
   }
   detail::residual_means(sums_.data(), amplitudes.data(), sums.data(), inverse_weights_.data(),
                          means.data());
-  const bool measure = settings_.measure_doubt && samples_ >= max_terms;
-  const auto doubt =
-      static_cast<float>(measure ? measured_doubt(fit, filtered, means) : settings_.doubt);
+  const bool noisy = settings_.noise == Noise::present;
+  const bool measure = noisy && settings_.measure_doubt && samples_ >= max_terms;
+  const double usual = noisy ? settings_.noisy_doubt : settings_.doubt;
+  const auto doubt = static_cast<float>(measure ? measured_doubt(fit, filtered, means) : usual);
   std::array<float, max_terms> pixels;
   inverse_dct(out, pixels);
   for (std::size_t pixel = 0; pixel < max_terms; ++pixel) {

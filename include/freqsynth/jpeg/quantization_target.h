@@ -21,7 +21,7 @@ struct QuantizationTarget {
   static constexpr std::size_t least_samples = 25;
 
   /// Per channel the step of each coefficient F in zig-zag order, at least 1e-37; infinity for one
-  /// that is dropped.
+  /// that is dropped. Those of channels that do not steer are not read.
   std::vector<std::array<float, max_terms>> steps;
   /// A block is done when its expected squared error, in squared steps and summed over all
   /// channels, is at most this share of what the quantiser itself does to a block of which it keeps
@@ -34,9 +34,9 @@ struct QuantizationTarget {
   /// of less than 8 x 8 pixels is done after so many less. At least 1.
   std::size_t most_samples = 4096;
 
-  /// The most squared error of a block that is done, in squared steps.
-  [[nodiscard]] double allowed_error() const {
-    return tolerance * static_cast<double>(max_terms * steps.size()) / 12;
+  /// The most squared error of a block that is done, in squared steps, over so many channels.
+  [[nodiscard]] double allowed_error(std::size_t channels) const {
+    return tolerance * static_cast<double>(max_terms * channels) / 12;
   }
 
   /// \throws std::invalid_argument naming the field and the value when out of range.

@@ -45,6 +45,13 @@ class QuantizerMeasure {
 
   /// See BlockMeasure.
   template <Refiner R>
+  bool notice_noise(const BlockView<R>&) {
+    noisy_ = true;
+    return true;
+  }
+
+  /// See BlockMeasure.
+  template <Refiner R>
   void absorbed(const BlockView<R>& view, std::uint32_t block, float) {
     book_.absorbed(view, block);
   }
@@ -55,8 +62,10 @@ class QuantizerMeasure {
     const std::uint32_t samples = view.blocks.samples(block);
     if (per_whole_block(view, block) >= target_.most_samples) return 0;
     const float error = std::min(error_of(view, block), most_priority);
+    std::size_t steering = 0;
+    for (const float weight : view.blocks.refiner().weights()) steering += weight > 0 ? 1 : 0;
     const auto allowed =
-        static_cast<float>(std::min(target_.allowed_error(), double{most_priority}));
+        static_cast<float>(std::min(target_.allowed_error(steering), double{most_priority}));
     if (error <= allowed && samples >= QuantizationTarget::least_samples) return 0;
     return factor * std::max(error, allowed) / static_cast<float>(samples);
   }
@@ -91,6 +100,7 @@ class QuantizerMeasure {
     float error = 0;
     std::array<float, max_terms> coefficients;
     for (std::size_t c = 0; c < target_.steps.size(); ++c) {
+      if (view.blocks.refiner().weights()[c] == 0) continue;
       float residual = book_.pooled(
           view, block, [&](std::uint32_t b) { return plausible_residual(view, b, c); }, neighbours_,
           0);

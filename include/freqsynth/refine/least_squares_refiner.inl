@@ -96,12 +96,12 @@ FREQSYNTH_INLINE LeastSquaresRefiner::LeastSquaresRefiner(SharedInverseList list
   if (channels_ == 0) detail::refuse("channels is 0");
   if (weights_.empty()) weights_.assign(channels_, 1 / static_cast<float>(channels_));
   if (weights_.size() != channels_) {
-    detail::refuse("channel_weights has " + std::to_string(weights_.size()) + " entries for " +
+    detail::refuse("weights has " + std::to_string(weights_.size()) + " entries for " +
                    std::to_string(channels_) + " channels");
   }
   for (const float weight : weights_) {
-    detail::require(detail::is_finite(weight) && weight >= 0 && weight <= 1e6f,
-                    "one of channel_weights", weight, "in 0..1e6");
+    detail::require(detail::is_finite(weight) && weight >= 0 && weight <= 1e6f, "one of weights",
+                    weight, "in 0..1e6");
   }
 }
 
