@@ -47,6 +47,7 @@ set(FREQSYNTH_LAYERS
   "image/frequency_image.h|the result: coefficients and sample counts per block|4"
   "image/pixel_transform.h|pixels to a frequency image|2, eq. 1"
   "image/pixel_view.h|an image in the caller's own memory|"
+  "image/own_means.h|what the samples within pixels show, and where they are flat|"
   "image/pixel_agreement.h|whether a picture is constant within each pixel|"
   "image/pixel_finisher.h|finished pixels: the fit and what it leaves over (beyond the paper)|"
   "image/block_images.h|images of a store of blocks|4"

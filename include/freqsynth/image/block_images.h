@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -16,6 +17,8 @@
 #include "freqsynth/engine/block_grid.h"
 #include "freqsynth/engine/block_store.h"
 #include "freqsynth/image/frequency_image.h"
+#include "freqsynth/image/own_means.h"
+#include "freqsynth/image/pixel_agreement.h"
 #include "freqsynth/image/pixel_finisher.h"
 #include "freqsynth/refine/refiner.h"
 
@@ -52,11 +55,11 @@ template <Refiner R>
 
 namespace detail {
 
-/// Which blocks of an image are constant within their pixels.
+/// What samples within pixels show, of all blocks of an image.
 template <Refiner R>
-class ImageAgreement {
+class ImageEvidence {
  public:
-  ImageAgreement(const BlockGrid& grid, const BlockStore<R>& blocks, const SharedInverseList& list)
+  ImageEvidence(const BlockGrid& grid, const BlockStore<R>& blocks, const SharedInverseList& list)
       : grid_(grid), blocks_(blocks), list_(list) {
     order_.resize(blocks.size());
     std::iota(order_.begin(), order_.end(), 0u);
@@ -68,40 +71,69 @@ class ImageAgreement {
   /// The blocks, those with fewer samples first.
   [[nodiscard]] const std::vector<std::uint32_t>& order() const { return order_; }
 
-  /// Finds how well samples agree within pixels.
+  /// Finds how well samples agree within pixels, and their means.
   void compare() {
     agreements_.resize(blocks_.size() * channels());
+    means_.assign(agreements_.size() * max_terms, OwnMeans::unknown);
     OwnedSamples owned;
     std::size_t samples = 0;
     for (const std::uint32_t block : order_) {
       for (; samples < blocks_.samples(block); ++samples) owned.add(list_->row(samples));
       for (std::size_t c = 0; c < channels(); ++c) {
-        agreements_[block * channels() + c] = blocks_.has_gaps(block, c)
-                                                  ? PixelAgreement::none()
-                                                  : owned.agreement(blocks_.fit(block, c));
+        const std::size_t at = block * channels() + c;
+        const BlockFit fit = blocks_.fit(block, c);
+        if (blocks_.has_gaps(block, c)) {
+          agreements_[at] = PixelAgreement::none();
+          compare_without_gaps(owned, fit, blocks_.gaps(block, c), at);
+        } else {
+          agreements_[at] = owned.agreement(fit);
+          owned.means(fit.own_sums, means_of(at));
+        }
       }
     }
   }
-  /// Whether the pixels of a block and of those around it are constant.
-  [[nodiscard]] bool constant_pixels(std::uint32_t block, std::size_t channel) const {
+  /// What is known of a block once compare() has been called.
+  [[nodiscard]] PixelEvidence of(std::uint32_t block, std::size_t channel) const {
     const std::size_t x = grid_.column(block), y = grid_.row(block);
+    PixelEvidence evidence;
     PixelAgreement around;
-    for (std::size_t v = y > 0 ? y - 1 : 0; v < std::min(y + 2, grid_.blocks_y); ++v) {
-      for (std::size_t u = x > 0 ? x - 1 : 0; u < std::min(x + 2, grid_.blocks_x); ++u) {
-        around.join(agreements_[(v * grid_.blocks_x + u) * channels() + channel]);
-      }
+    for (std::size_t k = 0; k < 9; ++k) {
+      // One less than 0 is beyond the end, too.
+      const std::size_t u = x + k % 3 - 1, v = y + k / 3 - 1;
+      if (u >= grid_.blocks_x || v >= grid_.blocks_y) continue;
+      const std::size_t at = (v * grid_.blocks_x + u) * channels() + channel;
+      around.join(agreements_[at]);
+      evidence.own_means[k] = means_.data() + at * max_terms;
     }
-    return around.holds();
+    evidence.constant_pixels = around.holds();
+    evidence.positive = !blocks_.any_negative(channel);
+    return evidence;
   }
 
  private:
   [[nodiscard]] std::size_t channels() const { return blocks_.refiner().channels(); }
+  [[nodiscard]] std::span<float, max_terms> means_of(std::size_t at) {
+    return std::span<float, max_terms>(means_.data() + at * max_terms, max_terms);
+  }
+  void compare_without_gaps(OwnedSamples owned, const BlockFit& fit, std::span<const Gap> gaps,
+                            std::size_t at) {
+    if (fit.own_sums.empty()) return;
+    std::array<float, max_terms> sums;
+    std::copy(fit.own_sums.begin(), fit.own_sums.end(), sums.begin());
+    for (const Gap& gap : gaps) {
+      const SampleRow& row = list_->row(gap.sample);
+      if (row.own_pixel != SampleRow::no_pixel) sums[row.own_pixel] -= gap.value;
+      owned.remove(row);
+    }
+    owned.means(sums, means_of(at));
+  }
 
   const BlockGrid& grid_;
   const BlockStore<R>& blocks_;
   const SharedInverseList& list_;
-  std::vector<std::uint32_t> order_;  // of the blocks, those with fewer samples first
-  std::vector<PixelAgreement> agreements_;
+  std::vector<std::uint32_t> order_;        // of the blocks, those with fewer samples first
+  std::vector<PixelAgreement> agreements_;  // [block][channel]
+  std::vector<float> means_;                // [block][channel][pixel]
 };
 
 }  // namespace detail
@@ -115,20 +147,24 @@ template <Refiner R>
                                             const FinishSettings& settings) {
   const std::size_t channels = blocks.refiner().channels();
   FrequencyImage image(grid.width, grid.height, channels, CoefficientMeaning::pixel_average);
-  detail::ImageAgreement<R> agreement(grid, blocks, list);
-  if (settings.residuals) agreement.compare();
+  detail::ImageEvidence<R> evidence(grid, blocks, list);
+  if (settings.residuals) evidence.compare();
   PixelFinisher finisher(list, settings);
+  for (std::size_t c = 0; c < channels; ++c) {
+    const bool positive = settings.residuals && settings.keep_positive && !blocks.any_negative(c);
+    image.set_non_negative(c, positive);
+  }
   std::vector<Gap> gaps;
-  for (const std::uint32_t block : agreement.order()) {
+  for (const std::uint32_t block : evidence.order()) {
     const std::size_t x = grid.column(block);
     const std::size_t y = grid.row(block);
     image.samples(x, y) = blocks.samples(block);
     finisher.advance(blocks.samples(block));
     for (std::size_t c = 0; c < channels; ++c) {
-      const bool constant = settings.residuals && agreement.constant_pixels(block, c);
-      finisher.finish(blocks.fit_without_gaps(block, c, gaps), image.coefficients(x, y, c),
-                      constant);
-      detail::to_host_unit(image.coefficients(x, y, c), blocks.exponent(c));
+      const BlockFit fit = blocks.fit_without_gaps(block, c, gaps);
+      const std::span<float, max_terms> pixels = image.coefficients(x, y, c);
+      finisher.finish(fit, pixels, settings.residuals ? evidence.of(block, c) : PixelEvidence());
+      detail::to_host_unit(pixels, blocks.exponent(c));
     }
   }
   return image;

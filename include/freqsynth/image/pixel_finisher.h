@@ -10,8 +10,9 @@
 ///
 /// The fit itself is filtered by what it says of itself, too: a coefficient that is hardly larger
 /// than its expected error is mostly noise. And a fit that rings beside an edge is held within what
-/// the samples around have shown; where these show a picture that is constant within pixels, each
-/// pixel is what its own samples say.
+/// the samples around have shown, above all where those within pixels show the flat side of the
+/// edge; where these show a picture that is constant within pixels, each pixel is what its own
+/// samples say.
 #pragma once
 
 #include <array>
@@ -22,6 +23,7 @@
 #include "freqsynth/basis/config.h"
 #include "freqsynth/basis/shared_list.h"
 #include "freqsynth/image/butterworth.h"
+#include "freqsynth/image/own_means.h"
 #include "freqsynth/image/pixel_agreement.h"
 #include "freqsynth/refine/refiner.h"
 
@@ -47,6 +49,15 @@ struct FinishSettings {
   /// median; where fewer than 4 of them have samples, in the range of the whole block. Only in
   /// blocks whose residuals are over 1 percent of that range. >= 0; infinite: no bounds.
   double slack = 0.4;
+  /// How far a fit rings beside an edge, as a share of the range of the whole block's means. A
+  /// pixel that is off by at most as much from what its own samples and those of two neighbours
+  /// show alike is held at that; and in any case where all eight neighbours show the same. In the
+  /// same blocks as `slack`, unless that is infinite. Finite and >= 0; 0: no pixel is held.
+  double ringing = 0.025;
+  /// Where no sample of a channel is negative, in the whole picture, no pixel is: what is added to
+  /// pixels below zero is taken from the others of their block in proportion. Signed functions stay
+  /// as they are.
+  bool keep_positive = true;
 
   /// For a sampler that returns Monte Carlo estimates.
   [[nodiscard]] static FinishSettings noisy() {
@@ -60,6 +71,16 @@ struct FinishSettings {
   FREQSYNTH_API void validate() const;
 };
 
+/// What the samples of a picture say of the pixels of one block, beyond its fit.
+struct PixelEvidence {
+  /// The picture is constant within each pixel, as PixelAgreement of this block and of those around
+  /// says.
+  bool constant_pixels = false;
+  /// No sample of the channel was negative.
+  bool positive = false;
+  BlocksMeans own_means = {};  ///< of samples within pixels, here and around
+};
+
 /// Finishes blocks, those with fewer samples first. What depends on positions alone, the sum over
 /// each pixel's samples of every term, is shared by all blocks with the same number of samples.
 class FREQSYNTH_API PixelFinisher {
@@ -71,17 +92,17 @@ class FREQSYNTH_API PixelFinisher {
   void advance(std::size_t samples);
 
   /// Coefficients of finished pixels (CoefficientMeaning::pixel_average).
-  /// \param constant_pixels  the picture is constant within each pixel, as PixelAgreement of this
-  ///                         block and of those around says
   void finish(const BlockFit& fit, std::span<float, max_terms> out,
-              bool constant_pixels = false) const;
+              const PixelEvidence& evidence = {}) const;
 
  private:
-  void finish_without_gaps(const BlockFit& fit, std::span<float, max_terms> out) const;
+  void finish_without_gaps(const BlockFit& fit, std::span<float, max_terms> out,
+                           const PixelEvidence& evidence) const;
   void filter(const BlockFit& fit, std::span<float, max_terms> filtered) const;
   double measured_doubt(const BlockFit& fit, std::span<const float, max_terms> filtered,
                         const detail::AlignedBlock& means) const;
-  void bound(const BlockFit& fit, std::span<float, max_terms> pixels, bool constant_pixels) const;
+  void bound(const BlockFit& fit, std::span<float, max_terms> pixels,
+             const PixelEvidence& evidence) const;
 
   SharedInverseList list_;
   FinishSettings settings_;

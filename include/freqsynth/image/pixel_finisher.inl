@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "freqsynth/basis/check.h"
@@ -14,6 +15,55 @@
 
 namespace freqsynth {
 
+namespace detail {
+
+/// Of each pixel the least and the greatest of the values in it and in those around it.
+struct Extremes {
+  std::array<float, max_terms> least, most;
+};
+
+/// Values count where there are some.
+inline Extremes extremes_around(const std::array<float, max_terms>& values,
+                                const std::array<bool, max_terms>& known) {
+  constexpr std::size_t side = block_size;
+  constexpr float none = std::numeric_limits<float>::max();
+  Extremes lines, around;
+  for (std::size_t y = 0; y < max_terms; y += side) {
+    std::array<float, side + 2> low, high;
+    low.front() = low.back() = none;
+    high.front() = high.back() = -none;
+    for (std::size_t x = 0; x < side; ++x) {
+      low[x + 1] = known[y + x] ? values[y + x] : none;
+      high[x + 1] = known[y + x] ? values[y + x] : -none;
+    }
+    for (std::size_t x = 0; x < side; ++x) {
+      lines.least[y + x] = std::min(std::min(low[x], low[x + 1]), low[x + 2]);
+      lines.most[y + x] = std::max(std::max(high[x], high[x + 1]), high[x + 2]);
+    }
+  }
+  for (std::size_t y = 0; y < max_terms; y += side) {
+    const std::size_t above = y > 0 ? y - side : 0;
+    const std::size_t below = std::min(y + side, max_terms - side);
+    for (std::size_t x = 0; x < side; ++x) {
+      const auto& [least, most] = lines;
+      around.least[y + x] = std::min(std::min(least[above + x], least[y + x]), least[below + x]);
+      around.most[y + x] = std::max(std::max(most[above + x], most[y + x]), most[below + x]);
+    }
+  }
+  return around;
+}
+
+/// Makes pixels below zero zero, and the others smaller in proportion, so that their sum stays.
+inline void lift_negative(std::span<float, max_terms> pixels) {
+  float above = 0, below = 0;
+  for (const float pixel : pixels) (pixel > 0 ? above : below) += pixel;
+  if (below == 0) return;
+  const float share = above > -below ? (above + below) / above : 0;
+  for (float& pixel : pixels) pixel = std::max(pixel, 0.0f) * share;
+}
+
+}  // namespace detail
+
 FREQSYNTH_INLINE void FinishSettings::validate() const {
   butterworth.validate();
   const auto check = [](double value, const char* name) {
@@ -21,6 +71,7 @@ FREQSYNTH_INLINE void FinishSettings::validate() const {
   };
   check(doubt, "doubt");
   check(shrinkage, "shrinkage");
+  check(ringing, "ringing");
   detail::require(!detail::is_nan(slack) && slack >= 0, "slack", slack, ">= 0");
 }
 
@@ -99,15 +150,15 @@ FREQSYNTH_INLINE double PixelFinisher::measured_doubt(const BlockFit& fit,
 
 /// Holds pixels within what the samples around have shown.
 FREQSYNTH_INLINE void PixelFinisher::bound(const BlockFit& fit, std::span<float, max_terms> pixels,
-                                           bool constant_pixels) const {
+                                           const PixelEvidence& evidence) const {
   constexpr int side = block_size;
   constexpr int enough = 4;
   std::array<float, max_terms> means;
   std::array<bool, max_terms> sampled;
   for (std::size_t pixel = 0; pixel < max_terms; ++pixel) {
-    sampled[pixel] = constant_pixels ? owned_.any(pixel) : weights_[pixel] > 0;
+    sampled[pixel] = evidence.constant_pixels ? owned_.any(pixel) : weights_[pixel] > 0;
     means[pixel] = fit.pixel_sums[pixel] * inverse_weights_[pixel];
-    if (!constant_pixels || !sampled[pixel]) continue;
+    if (!evidence.constant_pixels || !sampled[pixel]) continue;
     means[pixel] = owned_.mean(fit.own_sums, pixel);
     pixels[pixel] = std::clamp(pixels[pixel], means[pixel] - fit.spread, means[pixel] + fit.spread);
   }
@@ -140,19 +191,26 @@ FREQSYNTH_INLINE void PixelFinisher::bound(const BlockFit& fit, std::span<float,
   // A fit that leaves nothing over does not ring; it knows peaks that lie between samples.
   const float visible = 0.01f * (whole.high - whole.low);
   if (whole.known == 0 || fit.residual <= visible * visible) return;
+  const auto [least, most] = detail::extremes_around(means, sampled);
   for (int y = 0; y < side; ++y) {
     for (int x = 0; x < side; ++x) {
+      const auto at = static_cast<std::size_t>(y * side + x);
+      // Most are within what is shown around, which is cheaper to know than the median.
+      if (pixels[at] >= least[at] && pixels[at] <= most[at]) continue;
       const Range around = range_of(x - 1, y - 1, x + 1, y + 1);
       const Range& range = around.known < enough ? whole : around;
-      float& pixel = pixels[static_cast<std::size_t>(y * side + x)];
-      pixel = std::clamp(pixel, range.low, range.high);
+      pixels[at] = std::clamp(pixels[at], range.low, range.high);
     }
   }
+  if (settings_.ringing == 0) return;
+  const float range = (whole.high - whole.low) / (1 + static_cast<float>(settings_.slack));
+  OwnMeans(evidence.own_means).hold(pixels, range, static_cast<float>(settings_.ringing));
 }
 
 /// As if the samples that are gaps had not been taken.
 FREQSYNTH_INLINE void PixelFinisher::finish_without_gaps(const BlockFit& fit,
-                                                         std::span<float, max_terms> out) const {
+                                                         std::span<float, max_terms> out,
+                                                         const PixelEvidence& evidence) const {
   PixelFinisher others(*this);
   std::array<float, max_terms> pixel_sums;
   std::copy(fit.pixel_sums.begin(), fit.pixel_sums.end(), pixel_sums.begin());
@@ -177,12 +235,12 @@ FREQSYNTH_INLINE void PixelFinisher::finish_without_gaps(const BlockFit& fit,
     if (weight < least) weight = 0;
     others.inverse_weights_[pixel] = weight > 0 ? 1 / weight : 0;
   }
-  others.finish({fit.coefficients, pixel_sums, fit.residual}, out);
+  others.finish({fit.coefficients, pixel_sums, fit.residual}, out, evidence);
 }
 
 FREQSYNTH_INLINE void PixelFinisher::finish(const BlockFit& fit, std::span<float, max_terms> out,
-                                            bool constant_pixels) const {
-  if (!fit.gaps.empty()) return finish_without_gaps(fit, out);
+                                            const PixelEvidence& evidence) const {
+  if (!fit.gaps.empty()) return finish_without_gaps(fit, out, evidence);
   std::array<float, max_terms> filtered;
   filter(fit, filtered);
   for (std::size_t i = 0; i < max_terms; ++i) out[i] = filtered[i] * box_[i];
@@ -205,7 +263,8 @@ FREQSYNTH_INLINE void PixelFinisher::finish(const BlockFit& fit, std::span<float
     if (weights_[pixel] == 0) continue;
     pixels[pixel] += means[pixel] * weights_[pixel] / (weights_[pixel] + doubt);
   }
-  if (detail::is_finite(settings_.slack)) bound(fit, pixels, constant_pixels);
+  if (detail::is_finite(settings_.slack)) bound(fit, pixels, evidence);
+  if (settings_.keep_positive && evidence.positive) detail::lift_negative(pixels);
   forward_dct(pixels, out);
 }
 
