@@ -71,6 +71,8 @@ Key key_of(const Setup& setup) {
           finish.doubt,
           finish.shrinkage,
           finish.slack,
+          finish.ringing,
+          static_cast<double>(finish.keep_positive),
           static_cast<double>(synthesis.noisy)};
 }
 
@@ -81,6 +83,7 @@ std::vector<Parameter> make_parameters() {
   const auto doubt = [](Setup& s) -> double& { return s.finish.doubt; };
   const auto shrinkage = [](Setup& s) -> double& { return s.finish.shrinkage; };
   const auto slack = [](Setup& s) -> double& { return s.finish.slack; };
+  const auto ringing = [](Setup& s) -> double& { return s.finish.ringing; };
   const auto set_measure = [](PriorityMeasure measure) {
     return [=](Setup& s) { s.synthesis.priority.measure = measure; };
   };
@@ -133,6 +136,7 @@ std::vector<Parameter> make_parameters() {
   all.push_back({"doubt", For::quiet, numbers({0.25, 0.5, 1, 2}, doubt)});
   all.push_back({"shrinkage", For::quiet, numbers({0, 1, 2, 4}, shrinkage)});
   all.push_back({"slack", For::quiet, numbers({0, 0.2, 0.4, 0.8, off}, slack)});
+  all.push_back({"ringing", For::quiet, numbers({0, 0.0125, 0.025, 0.05}, ringing)});
   all.push_back({"noisy_doubt", For::noisy, numbers({0.5, 1, 4, 16}, doubt)});
   all.push_back({"noisy_measure_doubt",
                  For::noisy,
