@@ -49,6 +49,7 @@ set(FREQSYNTH_LAYERS
   "image/pixel_view.h|an image in the caller's own memory|"
   "image/own_means.h|what the samples within pixels show, and where they are flat|"
   "image/pixel_agreement.h|whether a picture is constant within each pixel|"
+  "image/shared_border.h|edges on the border of a block, and the samples that show their other side|"
   "image/pixel_finisher.h|finished pixels: the fit and what it leaves over (beyond the paper)|"
   "image/block_images.h|images of a store of blocks|4"
   "image/axis_weights.h|what each frequency is worth in each pixel of another resolution|4.5"

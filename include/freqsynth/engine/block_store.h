@@ -87,6 +87,12 @@ class BlockStore {
   [[nodiscard]] std::vector<Gap> gaps(std::size_t block, std::size_t channel) const {
     return gaps_.of(block, channel);
   }
+  /// The fit without the samples in `gaps`, which it refers to, where the refiner can do without.
+  [[nodiscard]] BlockFit fit_without(std::size_t block, std::size_t channel,
+                                     std::span<const Gap> gaps) const {
+    if constexpr (FillsGaps<R>) return refiner_.fit(state(block), counts_[block], channel, gaps);
+    return fit(block, channel);
+  }
   /// The fit without the samples that had no usable value in this channel. It refers to `gaps`,
   /// which receives them.
   [[nodiscard]] BlockFit fit_without_gaps(std::size_t block, std::size_t channel,

@@ -161,9 +161,15 @@ template <Refiner R>
     image.samples(x, y) = blocks.samples(block);
     finisher.advance(blocks.samples(block));
     for (std::size_t c = 0; c < channels; ++c) {
-      const BlockFit fit = blocks.fit_without_gaps(block, c, gaps);
+      const PixelEvidence known = settings.residuals ? evidence.of(block, c) : PixelEvidence();
       const std::span<float, max_terms> pixels = image.coefficients(x, y, c);
-      finisher.finish(fit, pixels, settings.residuals ? evidence.of(block, c) : PixelEvidence());
+      const BlockFit fit = blocks.fit_without_gaps(block, c, gaps);
+      const std::vector<Gap> foreign = finisher.foreign_samples(fit, known);
+      if (foreign.empty()) {
+        finisher.finish(fit, pixels, known);
+      } else {
+        finisher.finish(blocks.fit_without(block, c, foreign), pixels, known);
+      }
       detail::to_host_unit(pixels, blocks.exponent(c));
     }
   }

@@ -18,6 +18,7 @@
 #include <array>
 #include <cstddef>
 #include <span>
+#include <vector>
 
 #include "freqsynth/basis/aligned.h"
 #include "freqsynth/basis/config.h"
@@ -25,6 +26,7 @@
 #include "freqsynth/image/butterworth.h"
 #include "freqsynth/image/own_means.h"
 #include "freqsynth/image/pixel_agreement.h"
+#include "freqsynth/image/shared_border.h"
 #include "freqsynth/refine/refiner.h"
 
 namespace freqsynth {
@@ -91,6 +93,10 @@ class FREQSYNTH_API PixelFinisher {
   /// Goes on to blocks with `samples` samples; not less than before.
   void advance(std::size_t samples);
 
+  /// Samples on the border that show what lies beyond an edge there; a fit without them is better.
+  [[nodiscard]] std::vector<Gap> foreign_samples(const BlockFit& fit,
+                                                 const PixelEvidence& evidence) const;
+
   /// Coefficients of finished pixels (CoefficientMeaning::pixel_average).
   void finish(const BlockFit& fit, std::span<float, max_terms> out,
               const PixelEvidence& evidence = {}) const;
@@ -111,6 +117,7 @@ class FREQSYNTH_API PixelFinisher {
   std::array<float, max_terms> filter_;   // Butterworth factors
   std::array<float, max_terms> weights_;  // samples of each pixel
   OwnedSamples owned_;
+  SharedBorder border_;
   detail::AlignedBlock inverse_weights_;  // 0 without samples
   // [pixel][row-major term]: weighted sum of the term over the pixel's samples
   detail::AlignedVector<float> sums_;

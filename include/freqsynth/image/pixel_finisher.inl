@@ -92,6 +92,7 @@ FREQSYNTH_INLINE void PixelFinisher::advance(std::size_t samples) {
   for (; samples_ < samples; ++samples_) {
     const detail::SampleRow& row = list_->row(samples_);
     owned_.add(row);
+    border_.add(list_->position(samples_), row);
     for (std::size_t p = 0; p < row.pixel_count; ++p) {
       const std::size_t pixel = row.pixels[p];
       weights_[pixel] += row.pixel_weights[p];
@@ -236,6 +237,12 @@ FREQSYNTH_INLINE void PixelFinisher::finish_without_gaps(const BlockFit& fit,
     others.inverse_weights_[pixel] = weight > 0 ? 1 / weight : 0;
   }
   others.finish({fit.coefficients, pixel_sums, fit.residual}, out, evidence);
+}
+
+FREQSYNTH_INLINE std::vector<Gap> PixelFinisher::foreign_samples(
+    const BlockFit& fit, const PixelEvidence& evidence) const {
+  if (!settings_.residuals || evidence.constant_pixels || !fit.gaps.empty()) return {};
+  return border_.foreign(fit, evidence.own_means, *list_);
 }
 
 FREQSYNTH_INLINE void PixelFinisher::finish(const BlockFit& fit, std::span<float, max_terms> out,
