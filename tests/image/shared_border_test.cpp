@@ -18,7 +18,7 @@ namespace freqsynth {
 namespace {
 
 using Function = std::function<double(double s, double t)>;
-constexpr std::size_t samples = 300;
+constexpr std::size_t samples = 600;
 
 /// The samples of a block and what pixels show, its own and those of its neighbours.
 struct Block {
