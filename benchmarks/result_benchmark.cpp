@@ -9,6 +9,7 @@
 
 #include "fixtures.h"
 #include "freqsynth/image/reconstructor.h"
+#include "freqsynth/image/smooth_noise.h"
 
 namespace freqsynth::bench {
 namespace {

@@ -69,7 +69,9 @@ Key key_of(const Setup& setup) {
           finish.doubt,
           finish.noisy_doubt,
           finish.shrinkage,
-          finish.slack};
+          finish.slack,
+          finish.ringing,
+          static_cast<double>(finish.keep_positive)};
 }
 
 std::vector<Parameter> make_parameters() {
@@ -80,6 +82,7 @@ std::vector<Parameter> make_parameters() {
   const auto noisy_doubt = [](Setup& s) -> double& { return s.finish.noisy_doubt; };
   const auto shrinkage = [](Setup& s) -> double& { return s.finish.shrinkage; };
   const auto slack = [](Setup& s) -> double& { return s.finish.slack; };
+  const auto ringing = [](Setup& s) -> double& { return s.finish.ringing; };
   const auto set_measure = [](PriorityMeasure measure) {
     return [=](Setup& s) { s.synthesis.priority.measure = measure; };
   };
@@ -132,6 +135,7 @@ std::vector<Parameter> make_parameters() {
   all.push_back({"doubt", For::quiet, numbers({0.25, 0.5, 1, 2}, doubt)});
   all.push_back({"shrinkage", For::quiet, numbers({0, 1, 2, 4}, shrinkage)});
   all.push_back({"slack", For::quiet, numbers({0, 0.2, 0.4, 0.8, off}, slack)});
+  all.push_back({"ringing", For::quiet, numbers({0, 0.0125, 0.025, 0.05}, ringing)});
   all.push_back({"noisy_doubt", For::noisy, numbers({0.5, 1, 4, 16}, noisy_doubt)});
   all.push_back({"noisy_measure_doubt",
                  For::noisy,

@@ -20,7 +20,7 @@ struct Setup {
 };
 
 /// All that make_parameters() changes: setups with equal keys give equal pictures.
-using Key = std::array<double, 17>;
+using Key = std::array<double, 19>;
 [[nodiscard]] Key key_of(const Setup& setup);
 
 /// One of the values of a parameter.

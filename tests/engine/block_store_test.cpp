@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <vector>
 
 #include "support/oracles.h"
@@ -109,6 +110,19 @@ TEST_P(Stores, BlocksAreThoseOfARefinerFedByHand) {
   for (std::size_t block = 0; block < blocks; ++block) {
     ASSERT_NO_FATAL_FAILURE(expect_same(store, block, refiner, by_hand[block]));
   }
+}
+
+TEST(BlockStore, TellsWhichChannelsHadValuesBelowZero) {
+  BlockStore<LeastSquaresRefiner> store(LeastSquaresRefiner(shared_list(), 4), 2, 1000);
+  const float infinity = std::numeric_limits<float>::infinity();
+  for (const std::array<float, 4>& values :
+       {std::array<float, 4>{0, 1, -infinity, 2}, {-0.0f, 3, 1, 0}, {1, -1e-30f, 1, 0}}) {
+    store.absorb(1, values.data());
+  }
+  EXPECT_FALSE(store.any_negative(0));
+  EXPECT_TRUE(store.any_negative(1));
+  EXPECT_FALSE(store.any_negative(2)) << "a value that is not usable is none";
+  EXPECT_FALSE(store.any_negative(3));
 }
 
 }  // namespace

@@ -86,12 +86,15 @@ TEST(FrequencyImage, IsEmptyWhenMovedFrom) {
   FrequencyImage image(17, 9, 3);
   image.coefficients(2, 1, 2)[63] = 7;
   image.samples(2, 1) = 5;
+  image.set_non_negative(1, true);
   FrequencyImage taken(std::move(image));
   EXPECT_EQ(taken.coefficients(2, 1, 2)[63], 7);
   EXPECT_EQ(taken.samples(2, 1), 5u);
   FrequencyImage assigned(8, 8, 1);
   assigned = std::move(taken);
   EXPECT_EQ(assigned.width(), 17u);
+  EXPECT_FALSE(assigned.non_negative(0));
+  EXPECT_TRUE(assigned.non_negative(1));
   EXPECT_EQ(assigned.coefficients(2, 1, 2)[63], 7);
   // What is left can be used like any image without pixels.
   for (const FrequencyImage* left : {&image, &taken}) {

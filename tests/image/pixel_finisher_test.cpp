@@ -57,11 +57,12 @@ struct FittedBlock {
   }
 
   /// Finished pixels.
-  [[nodiscard]] Block finished(std::size_t samples, const FinishSettings& settings) const {
+  [[nodiscard]] Block finished(std::size_t samples, const FinishSettings& settings,
+                               const PixelEvidence& evidence = {}) const {
     PixelFinisher finisher(list, settings);
     finisher.advance(samples);
     Block out{}, pixels{};
-    finisher.finish({coefficients, refiner.pixel_sums(state.data(), 0), residual}, out);
+    finisher.finish({coefficients, refiner.pixel_sums(state.data(), 0), residual}, out, evidence);
     inverse_dct(out, pixels);
     return pixels;
   }
@@ -175,6 +176,64 @@ TEST(PixelFinisher, BoundsKeepARingingFitWithinTheSamples) {
     EXPECT_GE(pixel, -1e-5f);
     EXPECT_LE(pixel, 1 + 1e-5f);
   }
+}
+
+TEST(PixelFinisher, LiftsPixelsBelowZeroWhereNoSampleIs) {
+  FinishSettings settings;
+  settings.shrinkage = 0;
+  settings.butterworth.enabled = false;
+  settings.slack = std::numeric_limits<double>::infinity();
+  const FittedBlock block(100);
+  const Block ringing = block.finished(100, settings);
+  float above = 0, below = 0;
+  for (const float pixel : ringing) (pixel > 0 ? above : below) += pixel;
+  ASSERT_LT(below, -0.3f);
+  const Block lifted = block.finished(100, settings, {.positive = true});
+  for (std::size_t pixel = 0; pixel < max_terms; ++pixel) {
+    const float expected = std::max(ringing[pixel], 0.0f) * (above + below) / above;
+    EXPECT_NEAR(lifted[pixel], expected, 1e-5f) << pixel;
+  }
+  settings.keep_positive = false;
+  EXPECT_EQ(block.finished(100, settings, {.positive = true}), ringing);
+}
+
+TEST(PixelFinisher, HoldsFlatPixelsAtTheirSamples) {
+  FinishSettings settings, off;
+  settings.shrinkage = off.shrinkage = 0;
+  settings.butterworth.enabled = off.butterworth.enabled = false;
+  settings.ringing = 0.1;
+  off.ringing = 0;
+  const auto shown = [](int column, int row) {
+    return static_cast<float>(edge((column + 0.5) / 8, (row + 0.5) / 8));
+  };
+  Block means;
+  for (int i = 0; i < 64; ++i) means[static_cast<std::size_t>(i)] = shown(i % 8, i / 8);
+  PixelEvidence evidence;
+  evidence.own_means[4] = means.data();
+  int changed = 0, kept = 0;
+  for (const std::size_t samples : {50u, 64u, 100u, 150u, 256u}) {
+    const FittedBlock block(samples);
+    const Block ringing = block.finished(samples, off, evidence);
+    const Block held = block.finished(samples, settings, evidence);
+    for (int i = 0; i < 64; ++i) {
+      const int column = i % 8, row = i / 8;
+      int alike = 0;
+      for (int v = std::max(row - 1, 0); v <= std::min(row + 1, 7); ++v) {
+        for (int u = std::max(column - 1, 0); u <= std::min(column + 1, 7); ++u) {
+          alike += (u != column || v != row) && shown(u, v) == shown(column, row) ? 1 : 0;
+        }
+      }
+      const auto pixel = static_cast<std::size_t>(i);
+      const float distance = std::abs(ringing[pixel] - means[pixel]);
+      // The range of the block's means is 1.
+      const bool is_held = alike == 8 || (alike >= 2 && distance <= 0.1f);
+      EXPECT_NEAR(held[pixel], is_held ? means[pixel] : ringing[pixel], 1e-6f) << i;
+      changed += is_held && distance > 1e-4f ? 1 : 0;
+      kept += is_held ? 0 : 1;
+    }
+  }
+  EXPECT_GT(changed, 10);
+  EXPECT_GT(kept, 10);
 }
 
 // White noise around a slope. What is known of the noise makes the picture smoother; at an edge the
@@ -299,6 +358,9 @@ TEST(PixelFinisher, RefusesSettingsOutOfRange) {
   EXPECT_THROW(PixelFinisher(list, settings), std::invalid_argument);
   settings = {};
   settings.shrinkage = std::numeric_limits<double>::infinity();
+  EXPECT_THROW(PixelFinisher(list, settings), std::invalid_argument);
+  settings = {};
+  settings.ringing = -0.1;
   EXPECT_THROW(PixelFinisher(list, settings), std::invalid_argument);
   settings = {};
   settings.slack = NAN;

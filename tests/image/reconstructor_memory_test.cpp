@@ -130,6 +130,33 @@ TEST(ReconstructorMemory, ClampReplacesNegativeValuesOnly) {
   EXPECT_EQ(reconstruct(image, settings), expected);
 }
 
+TEST(ReconstructorMemory, ChannelsWithoutNegativeValuesAreClampedAlone) {
+  FrequencyImage image = usual_image();
+  auto expected = reconstruct(image);
+  image.set_non_negative(1, true);
+  std::size_t changed = 0;
+  for (std::size_t i = 1; i < expected.size(); i += channels) {
+    changed += expected[i] < 0 ? 1 : 0;
+    expected[i] = std::max(expected[i], 0.0f);
+  }
+  EXPECT_GT(changed, 10u);
+  EXPECT_EQ(reconstruct(image), expected);
+  // And of values at points.
+  std::array<float, channels> values, signed_values;
+  float least = 0;
+  for (double y = 0.5; y < height; ++y) {
+    for (double x = 0.5; x < width; ++x) {
+      evaluate(image, {}, x, y, values);
+      evaluate(usual_image(), {}, x, y, signed_values);
+      least = std::min(least, signed_values[1]);
+      for (std::size_t c = 0; c < channels; ++c) {
+        ASSERT_EQ(values[c], c == 1 ? std::max(signed_values[c], 0.0f) : signed_values[c]);
+      }
+    }
+  }
+  EXPECT_LT(least, -0.01f);
+}
+
 TEST(ReconstructorMemory, EmptyImagesAndOutputsAreLeftAlone) {
   const FrequencyImage empty(0, 5, channels);
   EXPECT_TRUE(reconstruct(empty).empty());

@@ -209,20 +209,20 @@ struct Configuration {
 };
 
 constexpr Configuration configurations[] = {
-    {"color", color, 0xea3ec19f4b99f814u},
-    {"gray", gray, 0x61277e3492db0c3au},
-    {"change", change, 0xf420ccd99ee56ee1u},
-    {"strict", strict, 0x5dfd09132c022697u},
-    {"weighted", weighted, 0x1274fc214c9de2aau},
-    {"noisy", noisy, 0x6d4f3af624c8e345u},
-    {"until_quantized", until_quantized, 0x11951aaf9aaa1f6bu},
-    {"threshold", threshold, 0xc78a700c0550d69cu},
-    {"capped", capped, 0x10610de2f3f8242du},
-    {"other_list", other_list, 0x1da3d210a7d28fcfu},
-    {"bad_values", bad_values, 0x36879cdb75ed31c2u},
-    {"high_range", high_range, 0x64bec56cae182f41u},
-    {"many_channels", many_channels, 0x51390f9af5ae5734u},
-    {"outputs", outputs, 0xd36d99ce9d2d0614u},
+    {"color", color, 0x250a62f0576ffda9u},
+    {"gray", gray, 0x98943a7c97047e6fu},
+    {"change", change, 0x3cf78ca4bb9c2f7du},
+    {"strict", strict, 0x54524a16bdf84efcu},
+    {"weighted", weighted, 0xc3cc5f9dc17c5ca2u},
+    {"noisy", noisy, 0x6cb0b44bfa1fb6d2u},
+    {"until_quantized", until_quantized, 0x36087b5cb6e76993u},
+    {"threshold", threshold, 0xb4db26908e677fc2u},
+    {"capped", capped, 0x8e992b5183e04e6fu},
+    {"other_list", other_list, 0xfbfa0c2183dafff2u},
+    {"bad_values", bad_values, 0xe995796a1cb03523u},
+    {"high_range", high_range, 0xb4b80849403da258u},
+    {"many_channels", many_channels, 0xa9e14aa91bad1329u},
+    {"outputs", outputs, 0x1dae2995eb1d774du},
 };
 
 }  // namespace

@@ -83,6 +83,16 @@ class BlockStore {
   [[nodiscard]] bool has_gaps(std::size_t block, std::size_t channel) const {
     return gaps_.any(block) && !gaps_.of(block, channel).empty();
   }
+  /// Those samples, and what was absorbed in their place.
+  [[nodiscard]] std::vector<Gap> gaps(std::size_t block, std::size_t channel) const {
+    return gaps_.of(block, channel);
+  }
+  /// The fit without the samples in `gaps`, which it refers to, where the refiner can do without.
+  [[nodiscard]] BlockFit fit_without(std::size_t block, std::size_t channel,
+                                     std::span<const Gap> gaps) const {
+    if constexpr (FillsGaps<R>) return refiner_.fit(state(block), counts_[block], channel, gaps);
+    return fit(block, channel);
+  }
   /// The fit without the samples that had no usable value in this channel. It refers to `gaps`,
   /// which receives them.
   [[nodiscard]] BlockFit fit_without_gaps(std::size_t block, std::size_t channel,
@@ -96,6 +106,8 @@ class BlockStore {
     if (missing_[block] == 0) return 1;
     return static_cast<float>(informed(block) + 1) / static_cast<float>(counts_[block] + 1);
   }
+  /// Whether a usable value of a channel was below zero.
+  [[nodiscard]] bool any_negative(std::size_t channel) const { return negative_[channel] != 0; }
   /// Makes room, so that the next `more` calls of absorb() cannot fail.
   void reserve(std::size_t more) { gaps_.reserve(more * refiner_.channels()); }
 
@@ -119,8 +131,9 @@ class BlockStore {
   std::size_t untouched_;
   std::size_t largest_ = 0;
   std::vector<int> exponents_;
-  std::vector<float> factors_;  // of a value: 1 / unit
-  std::vector<float> values_;   // of a sample in the channels' units
+  std::vector<float> factors_;          // of a value: 1 / unit
+  std::vector<std::uint8_t> negative_;  // 1: a channel's values are not all positive or 0
+  std::vector<float> values_;           // of a sample in the channels' units
 };
 
 // ------------------------------------------------------------------------------------ definitions
@@ -134,6 +147,7 @@ BlockStore<R>::BlockStore(R refiner, std::size_t blocks, std::size_t most_sample
       gaps_(blocks) {
   exponents_.assign(refiner_.channels(), 0);
   factors_.assign(refiner_.channels(), 1.0f);
+  negative_.resize(refiner_.channels());
   values_.resize(refiner_.channels());
   constexpr std::size_t line = detail::alignment / sizeof(float);
   stride_ = (refiner_.state_size() + line - 1) / line * line;
@@ -168,6 +182,7 @@ float BlockStore<R>::absorb(std::size_t block, const float* values) {
     const bool usable = is_usable_sample(values[c]);
     values_[c] = usable ? values[c] * factors_[c] : std::bit_cast<float>(0x7fc00000u);
     bad = bad || !usable;
+    if (usable && values[c] < 0) negative_[c] = 1;
   }
   if (bad || gaps_.any(block)) [[unlikely]] {
     note_gaps(block, count, values_.data());

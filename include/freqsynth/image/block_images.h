@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -12,14 +13,14 @@
 #include <vector>
 
 #include "freqsynth/basis/config.h"
-#include "freqsynth/basis/dct.h"
 #include "freqsynth/basis/shared_list.h"
 #include "freqsynth/engine/block_grid.h"
 #include "freqsynth/engine/block_store.h"
+#include "freqsynth/image/block_picture.h"
 #include "freqsynth/image/frequency_image.h"
-#include "freqsynth/image/noisy_picture.h"
+#include "freqsynth/image/own_means.h"
+#include "freqsynth/image/pixel_agreement.h"
 #include "freqsynth/image/pixel_finisher.h"
-#include "freqsynth/image/smooth_noise.h"
 #include "freqsynth/refine/refiner.h"
 
 namespace freqsynth {
@@ -55,11 +56,11 @@ template <Refiner R>
 
 namespace detail {
 
-/// Which blocks of an image are constant within their pixels.
+/// What samples within pixels show, of all blocks of an image.
 template <Refiner R>
-class ImageAgreement {
+class ImageEvidence {
  public:
-  ImageAgreement(const BlockGrid& grid, const BlockStore<R>& blocks, const SharedInverseList& list)
+  ImageEvidence(const BlockGrid& grid, const BlockStore<R>& blocks, const SharedInverseList& list)
       : grid_(grid), blocks_(blocks), list_(list) {
     order_.resize(blocks.size());
     std::iota(order_.begin(), order_.end(), 0u);
@@ -71,104 +72,69 @@ class ImageAgreement {
   /// The blocks, those with fewer samples first.
   [[nodiscard]] const std::vector<std::uint32_t>& order() const { return order_; }
 
-  /// Finds how well samples agree within pixels.
+  /// Finds how well samples agree within pixels, and their means.
   void compare() {
     agreements_.resize(blocks_.size() * channels());
+    means_.assign(agreements_.size() * max_terms, OwnMeans::unknown);
     OwnedSamples owned;
     std::size_t samples = 0;
     for (const std::uint32_t block : order_) {
       for (; samples < blocks_.samples(block); ++samples) owned.add(list_->row(samples));
       for (std::size_t c = 0; c < channels(); ++c) {
-        agreements_[block * channels() + c] = blocks_.has_gaps(block, c)
-                                                  ? PixelAgreement::none()
-                                                  : owned.agreement(blocks_.fit(block, c));
+        const std::size_t at = block * channels() + c;
+        const BlockFit fit = blocks_.fit(block, c);
+        if (blocks_.has_gaps(block, c)) {
+          agreements_[at] = PixelAgreement::none();
+          compare_without_gaps(owned, fit, blocks_.gaps(block, c), at);
+        } else {
+          agreements_[at] = owned.agreement(fit);
+          owned.means(fit.own_sums, means_of(at));
+        }
       }
     }
   }
-  /// Whether the pixels of a block and of those around it are constant.
-  [[nodiscard]] bool constant_pixels(std::uint32_t block, std::size_t channel) const {
+  /// What is known of a block once compare() has been called.
+  [[nodiscard]] PixelEvidence of(std::uint32_t block, std::size_t channel) const {
     const std::size_t x = grid_.column(block), y = grid_.row(block);
+    PixelEvidence evidence;
     PixelAgreement around;
-    for (std::size_t v = y > 0 ? y - 1 : 0; v < std::min(y + 2, grid_.blocks_y); ++v) {
-      for (std::size_t u = x > 0 ? x - 1 : 0; u < std::min(x + 2, grid_.blocks_x); ++u) {
-        around.join(agreements_[(v * grid_.blocks_x + u) * channels() + channel]);
-      }
+    for (std::size_t k = 0; k < 9; ++k) {
+      // One less than 0 is beyond the end, too.
+      const std::size_t u = x + k % 3 - 1, v = y + k / 3 - 1;
+      if (u >= grid_.blocks_x || v >= grid_.blocks_y) continue;
+      const std::size_t at = (v * grid_.blocks_x + u) * channels() + channel;
+      around.join(agreements_[at]);
+      evidence.own_means[k] = means_.data() + at * max_terms;
     }
-    return around.holds();
+    evidence.constant_pixels = around.holds();
+    evidence.positive = !blocks_.any_negative(channel);
+    return evidence;
   }
 
  private:
   [[nodiscard]] std::size_t channels() const { return blocks_.refiner().channels(); }
+  [[nodiscard]] std::span<float, max_terms> means_of(std::size_t at) {
+    return std::span<float, max_terms>(means_.data() + at * max_terms, max_terms);
+  }
+  void compare_without_gaps(OwnedSamples owned, const BlockFit& fit, std::span<const Gap> gaps,
+                            std::size_t at) {
+    if (fit.own_sums.empty()) return;
+    std::array<float, max_terms> sums;
+    std::copy(fit.own_sums.begin(), fit.own_sums.end(), sums.begin());
+    for (const Gap& gap : gaps) {
+      const SampleRow& row = list_->row(gap.sample);
+      if (row.own_pixel != SampleRow::no_pixel) sums[row.own_pixel] -= gap.value;
+      owned.remove(row);
+    }
+    owned.means(sums, means_of(at));
+  }
 
   const BlockGrid& grid_;
   const BlockStore<R>& blocks_;
   const SharedInverseList& list_;
-  std::vector<std::uint32_t> order_;  // of the blocks, those with fewer samples first
-  std::vector<PixelAgreement> agreements_;
-};
-
-}  // namespace detail
-
-namespace detail {
-
-/// The cells of all blocks as one picture with noise.
-class BlockPicture {
- public:
-  BlockPicture(const BlockGrid& grid, std::size_t channels) : grid_(grid) {
-    picture_.width = grid.blocks_x * block_size;
-    picture_.height = grid.blocks_y * block_size;
-    picture_.weights.resize(picture_.width * picture_.height);
-    picture_.sums.assign(channels, picture_.weights);
-    picture_.pixels.assign(channels, picture_.weights);
-    picture_.variances.assign(channels, NoisyPicture::Plane(grid.size()));
-  }
-
-  /// Takes what the samples of a block say, and its finished coefficients.
-  void add(const PixelFinisher& finisher, const BlockFit& fit, std::size_t block,
-           std::size_t channel, std::span<const float, max_terms> coefficients) {
-    std::array<float, max_terms> weights, sums, pixels;
-    inverse_dct(coefficients, pixels);
-    finisher.pixel_samples(fit, pixels, weights, sums);
-    picture_.variances[channel][block] = fit.residual;
-    visit(block, [&](std::size_t cell, std::size_t pixel) {
-      picture_.weights[pixel] = weights[cell];
-      picture_.sums[channel][pixel] = sums[cell];
-      picture_.pixels[channel][pixel] = pixels[cell];
-    });
-  }
-
-  /// Smooths the channels that have a weight.
-  void smooth(std::span<const float> weights, std::span<const std::size_t> features) {
-    std::vector<std::size_t> channels;
-    for (std::size_t c = 0; c < weights.size(); ++c) {
-      if (weights[c] > 0) channels.push_back(c);
-    }
-    smooth_noise(picture_, channels, features);
-  }
-
-  /// The coefficients of a block.
-  void take(std::size_t block, std::size_t channel,
-            std::span<float, max_terms> coefficients) const {
-    std::array<float, max_terms> pixels;
-    visit(block, [&](std::size_t cell, std::size_t pixel) {
-      pixels[cell] = picture_.pixels[channel][pixel];
-    });
-    forward_dct(pixels, coefficients);
-  }
-
- private:
-  /// Calls visit(cell of the block, pixel of the picture).
-  template <class Visit>
-  void visit(std::size_t block, Visit&& visit) const {
-    const std::size_t first =
-        (grid_.row(block) * picture_.width + grid_.column(block)) * block_size;
-    for (std::size_t cell = 0; cell < max_terms; ++cell) {
-      visit(cell, first + cell / block_size * picture_.width + cell % block_size);
-    }
-  }
-
-  const BlockGrid& grid_;
-  NoisyPicture picture_;
+  std::vector<std::uint32_t> order_;        // of the blocks, those with fewer samples first
+  std::vector<PixelAgreement> agreements_;  // [block][channel]
+  std::vector<float> means_;                // [block][channel][pixel]
 };
 
 }  // namespace detail
@@ -184,30 +150,40 @@ template <Refiner R>
                                             std::span<const std::size_t> features = {}) {
   const std::size_t channels = blocks.refiner().channels();
   FrequencyImage image(grid.width, grid.height, channels, CoefficientMeaning::pixel_average);
-  detail::ImageAgreement<R> agreement(grid, blocks, list);
-  if (settings.residuals) agreement.compare();
   const bool smooth =
       settings.residuals && settings.smooth_noise && settings.noise == Noise::present;
   detail::BlockPicture picture(grid, smooth ? channels : 0);
+  detail::ImageEvidence<R> evidence(grid, blocks, list);
+  if (settings.residuals) evidence.compare();
   PixelFinisher finisher(list, settings);
+  for (std::size_t c = 0; c < channels; ++c) {
+    const bool positive = settings.residuals && settings.keep_positive && !blocks.any_negative(c);
+    image.set_non_negative(c, positive);
+  }
   std::vector<Gap> gaps;
-  for (const std::uint32_t block : agreement.order()) {
+  for (const std::uint32_t block : evidence.order()) {
     const std::size_t x = grid.column(block);
     const std::size_t y = grid.row(block);
     image.samples(x, y) = blocks.samples(block);
     finisher.advance(blocks.samples(block));
     for (std::size_t c = 0; c < channels; ++c) {
-      const bool constant = settings.residuals && agreement.constant_pixels(block, c);
+      const PixelEvidence known = settings.residuals ? evidence.of(block, c) : PixelEvidence();
+      const std::span<float, max_terms> pixels = image.coefficients(x, y, c);
       const BlockFit fit = blocks.fit_without_gaps(block, c, gaps);
-      finisher.finish(fit, image.coefficients(x, y, c), constant);
-      if (smooth) picture.add(finisher, fit, block, c, image.coefficients(x, y, c));
+      const std::vector<Gap> foreign = finisher.foreign_samples(fit, known);
+      if (foreign.empty()) {
+        finisher.finish(fit, pixels, known);
+      } else {
+        finisher.finish(blocks.fit_without(block, c, foreign), pixels, known);
+      }
+      if (smooth) picture.add(finisher, fit, block, c, pixels);
     }
   }
   if (smooth) picture.smooth(blocks.refiner().weights(), features);
   for (std::size_t block = 0; block < blocks.size(); ++block) {
     for (std::size_t c = 0; c < channels; ++c) {
       const auto coefficients = image.coefficients(grid.column(block), grid.row(block), c);
-      if (smooth) picture.take(block, c, coefficients);
+      if (smooth) picture.take(block, c, image.non_negative(c), coefficients);
       detail::to_host_unit(coefficients, blocks.exponent(c));
     }
   }

@@ -70,6 +70,17 @@ class FrequencyImage {
   /// What the coefficients stand for.
   [[nodiscard]] CoefficientMeaning meaning() const { return meaning_; }
 
+  /// Whether a channel has no values below zero: all pixels that are made of it are at least 0.
+  [[nodiscard]] bool non_negative(std::size_t channel) const {
+    FREQSYNTH_ASSERT(channel < size_.channels);
+    return non_negative_[channel] != 0;
+  }
+  /// Says so, or not.
+  void set_non_negative(std::size_t channel, bool non_negative) {
+    FREQSYNTH_ASSERT(channel < size_.channels);
+    non_negative_[channel] = non_negative ? 1 : 0;
+  }
+
   /// The 64 coefficients F (eqs. 1 and 2) of a channel of a block, in zig-zag order.
   [[nodiscard]] std::span<float, max_terms> coefficients(std::size_t block_x, std::size_t block_y,
                                                          std::size_t channel) {
@@ -111,8 +122,9 @@ class FrequencyImage {
 
   Size size_;
   CoefficientMeaning meaning_ = CoefficientMeaning::point_function;
-  std::vector<float> coefficients_;     // [block][channel][term]
-  std::vector<std::uint32_t> samples_;  // [block]
+  std::vector<float> coefficients_;         // [block][channel][term]
+  std::vector<std::uint32_t> samples_;      // [block]
+  std::vector<std::uint8_t> non_negative_;  // [channel]
 };
 
 }  // namespace freqsynth

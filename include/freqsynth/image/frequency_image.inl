@@ -15,13 +15,15 @@ FREQSYNTH_INLINE FrequencyImage::FrequencyImage(std::size_t width, std::size_t h
   size_ = {width, height, channels, grid.blocks_x, grid.blocks_y};
   coefficients_.resize(grid.blocks_x * grid.blocks_y * channels * max_terms);
   samples_.resize(grid.blocks_x * grid.blocks_y);
+  non_negative_.resize(channels);
 }
 
 FREQSYNTH_INLINE FrequencyImage::FrequencyImage(FrequencyImage&& other) noexcept
     : size_(std::exchange(other.size_, Size())),
       meaning_(other.meaning_),
       coefficients_(std::exchange(other.coefficients_, {})),
-      samples_(std::exchange(other.samples_, {})) {}
+      samples_(std::exchange(other.samples_, {})),
+      non_negative_(std::exchange(other.non_negative_, {})) {}
 
 FREQSYNTH_INLINE FrequencyImage& FrequencyImage::operator=(FrequencyImage&& other) noexcept {
   FrequencyImage taken(std::move(other));
@@ -29,6 +31,7 @@ FREQSYNTH_INLINE FrequencyImage& FrequencyImage::operator=(FrequencyImage&& othe
   std::swap(meaning_, taken.meaning_);
   std::swap(coefficients_, taken.coefficients_);
   std::swap(samples_, taken.samples_);
+  std::swap(non_negative_, taken.non_negative_);
   return *this;
 }
 

@@ -17,6 +17,7 @@
 
 #include "freqsynth/basis/config.h"
 #include "freqsynth/basis/kernels.h"
+#include "freqsynth/image/own_means.h"
 #include "freqsynth/refine/refiner.h"
 
 namespace freqsynth {
@@ -63,11 +64,22 @@ class OwnedSamples {
     if (row.own_pixel != detail::SampleRow::no_pixel) ++counts_[row.own_pixel];
   }
 
+  /// One that was added less.
+  void remove(const detail::SampleRow& row) {
+    if (row.own_pixel != detail::SampleRow::no_pixel) --counts_[row.own_pixel];
+  }
+
   /// Whether a pixel has any.
   [[nodiscard]] bool any(std::size_t pixel) const { return counts_[pixel] > 0; }
   /// The mean of those in a pixel that has some, of their sums in each pixel (BlockFit::own_sums).
   [[nodiscard]] float mean(std::span<const float> sums, std::size_t pixel) const {
     return sums[pixel] / static_cast<float>(counts_[pixel]);
+  }
+  /// The means in all pixels; OwnMeans::unknown where there is none, or no sum is known.
+  void means(std::span<const float> sums, std::span<float, max_terms> out) const {
+    for (std::size_t pixel = 0; pixel < max_terms; ++pixel) {
+      out[pixel] = any(pixel) && !sums.empty() ? mean(sums, pixel) : OwnMeans::unknown;
+    }
   }
   /// How well those of a block agree within its pixels; not at all where that is not known.
   /// \param fit  of all samples, none of which was a gap

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "freqsynth/basis/check.h"
@@ -19,18 +20,43 @@ namespace detail {
 /// rounding.
 inline constexpr float least_weight = 1e-3f;
 
-}  // namespace detail
+/// Of each pixel the least and the greatest of the values in it and in those around it.
+struct Extremes {
+  std::array<float, max_terms> least, most;
+};
 
-FREQSYNTH_INLINE void FinishSettings::validate() const {
-  butterworth.validate();
-  const auto check = [](double value, const char* name) {
-    detail::require(detail::is_finite(value) && value >= 0, name, value, "a finite number >= 0");
-  };
-  check(doubt, "doubt");
-  check(noisy_doubt, "noisy_doubt");
-  check(shrinkage, "shrinkage");
-  detail::require(!detail::is_nan(slack) && slack >= 0, "slack", slack, ">= 0");
+/// Values count where there are some.
+inline Extremes extremes_around(const std::array<float, max_terms>& values,
+                                const std::array<bool, max_terms>& known) {
+  constexpr std::size_t side = block_size;
+  constexpr float none = std::numeric_limits<float>::max();
+  Extremes lines, around;
+  for (std::size_t y = 0; y < max_terms; y += side) {
+    std::array<float, side + 2> low, high;
+    low.front() = low.back() = none;
+    high.front() = high.back() = -none;
+    for (std::size_t x = 0; x < side; ++x) {
+      low[x + 1] = known[y + x] ? values[y + x] : none;
+      high[x + 1] = known[y + x] ? values[y + x] : -none;
+    }
+    for (std::size_t x = 0; x < side; ++x) {
+      lines.least[y + x] = std::min(std::min(low[x], low[x + 1]), low[x + 2]);
+      lines.most[y + x] = std::max(std::max(high[x], high[x + 1]), high[x + 2]);
+    }
+  }
+  for (std::size_t y = 0; y < max_terms; y += side) {
+    const std::size_t above = y > 0 ? y - side : 0;
+    const std::size_t below = std::min(y + side, max_terms - side);
+    for (std::size_t x = 0; x < side; ++x) {
+      const auto& [least, most] = lines;
+      around.least[y + x] = std::min(std::min(least[above + x], least[y + x]), least[below + x]);
+      around.most[y + x] = std::max(std::max(most[above + x], most[y + x]), most[below + x]);
+    }
+  }
+  return around;
 }
+
+}  // namespace detail
 
 FREQSYNTH_INLINE PixelFinisher::PixelFinisher(SharedInverseList list,
                                               const FinishSettings& settings)
@@ -49,6 +75,7 @@ FREQSYNTH_INLINE void PixelFinisher::advance(std::size_t samples) {
   for (; samples_ < samples; ++samples_) {
     const detail::SampleRow& row = list_->row(samples_);
     owned_.add(row);
+    border_.add(list_->position(samples_), row);
     for (std::size_t p = 0; p < row.pixel_count; ++p) {
       const std::size_t pixel = row.pixels[p];
       weights_[pixel] += row.pixel_weights[p];
@@ -107,15 +134,15 @@ FREQSYNTH_INLINE double PixelFinisher::measured_doubt(const BlockFit& fit,
 
 /// Holds pixels within what the samples around have shown.
 FREQSYNTH_INLINE void PixelFinisher::bound(const BlockFit& fit, std::span<float, max_terms> pixels,
-                                           bool constant_pixels) const {
+                                           const PixelEvidence& evidence) const {
   constexpr int side = block_size;
   constexpr int enough = 4;
   std::array<float, max_terms> means;
   std::array<bool, max_terms> sampled;
   for (std::size_t pixel = 0; pixel < max_terms; ++pixel) {
-    sampled[pixel] = constant_pixels ? owned_.any(pixel) : weights_[pixel] > 0;
+    sampled[pixel] = evidence.constant_pixels ? owned_.any(pixel) : weights_[pixel] > 0;
     means[pixel] = fit.pixel_sums[pixel] * inverse_weights_[pixel];
-    if (!constant_pixels || !sampled[pixel]) continue;
+    if (!evidence.constant_pixels || !sampled[pixel]) continue;
     means[pixel] = owned_.mean(fit.own_sums, pixel);
     pixels[pixel] = std::clamp(pixels[pixel], means[pixel] - fit.spread, means[pixel] + fit.spread);
   }
@@ -148,14 +175,20 @@ FREQSYNTH_INLINE void PixelFinisher::bound(const BlockFit& fit, std::span<float,
   // A fit that leaves nothing over does not ring; it knows peaks that lie between samples.
   const float visible = 0.01f * (whole.high - whole.low);
   if (whole.known == 0 || fit.residual <= visible * visible) return;
+  const auto [least, most] = detail::extremes_around(means, sampled);
   for (int y = 0; y < side; ++y) {
     for (int x = 0; x < side; ++x) {
+      const auto at = static_cast<std::size_t>(y * side + x);
+      // Most are within what is shown around, which is cheaper to know than the median.
+      if (pixels[at] >= least[at] && pixels[at] <= most[at]) continue;
       const Range around = range_of(x - 1, y - 1, x + 1, y + 1);
       const Range& range = around.known < enough ? whole : around;
-      float& pixel = pixels[static_cast<std::size_t>(y * side + x)];
-      pixel = std::clamp(pixel, range.low, range.high);
+      pixels[at] = std::clamp(pixels[at], range.low, range.high);
     }
   }
+  if (settings_.ringing == 0) return;
+  const float range = (whole.high - whole.low) / (1 + static_cast<float>(settings_.slack));
+  OwnMeans(evidence.own_means).hold(pixels, range, static_cast<float>(settings_.ringing));
 }
 
 FREQSYNTH_INLINE void PixelFinisher::pixel_samples(const BlockFit& fit,
@@ -181,7 +214,8 @@ FREQSYNTH_INLINE void PixelFinisher::pixel_samples(const BlockFit& fit,
 
 /// As if the samples that are gaps had not been taken.
 FREQSYNTH_INLINE void PixelFinisher::finish_without_gaps(const BlockFit& fit,
-                                                         std::span<float, max_terms> out) const {
+                                                         std::span<float, max_terms> out,
+                                                         const PixelEvidence& evidence) const {
   PixelFinisher others(*this);
   std::array<float, max_terms> pixel_sums;
   std::copy(fit.pixel_sums.begin(), fit.pixel_sums.end(), pixel_sums.begin());
@@ -204,12 +238,18 @@ FREQSYNTH_INLINE void PixelFinisher::finish_without_gaps(const BlockFit& fit,
     if (weight < detail::least_weight) weight = 0;
     others.inverse_weights_[pixel] = weight > 0 ? 1 / weight : 0;
   }
-  others.finish({fit.coefficients, pixel_sums, fit.residual}, out);
+  others.finish({fit.coefficients, pixel_sums, fit.residual}, out, evidence);
+}
+
+FREQSYNTH_INLINE std::vector<Gap> PixelFinisher::foreign_samples(
+    const BlockFit& fit, const PixelEvidence& evidence) const {
+  if (!settings_.residuals || evidence.constant_pixels || !fit.gaps.empty()) return {};
+  return border_.foreign(fit, evidence.own_means, *list_);
 }
 
 FREQSYNTH_INLINE void PixelFinisher::finish(const BlockFit& fit, std::span<float, max_terms> out,
-                                            bool constant_pixels) const {
-  if (!fit.gaps.empty()) return finish_without_gaps(fit, out);
+                                            const PixelEvidence& evidence) const {
+  if (!fit.gaps.empty()) return finish_without_gaps(fit, out, evidence);
   std::array<float, max_terms> filtered;
   filter(fit, filtered);
   for (std::size_t i = 0; i < max_terms; ++i) out[i] = filtered[i] * box_[i];
@@ -233,7 +273,8 @@ FREQSYNTH_INLINE void PixelFinisher::finish(const BlockFit& fit, std::span<float
     if (weights_[pixel] == 0) continue;
     pixels[pixel] += means[pixel] * weights_[pixel] / (weights_[pixel] + doubt);
   }
-  if (detail::is_finite(settings_.slack)) bound(fit, pixels, constant_pixels);
+  if (detail::is_finite(settings_.slack)) bound(fit, pixels, evidence);
+  if (settings_.keep_positive && evidence.positive) detail::lift_negative(pixels);
   forward_dct(pixels, out);
 }
 

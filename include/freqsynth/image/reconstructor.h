@@ -21,7 +21,8 @@ struct ReconstructionSettings {
   /// Applies to CoefficientMeaning::point_function; finished pixels are not filtered again.
   ButterworthSettings butterworth = {};
   PixelFilter pixel_filter = PixelFilter::box;  ///< what a pixel's value is
-  /// Replace values below zero, the ringing beside bright edges, by zero.
+  /// Replace values below zero, the ringing beside bright edges, by zero in all channels. In those
+  /// that the image says are not negative they are in any case.
   bool clamp_negative = false;
 };
 

@@ -52,6 +52,12 @@ class BlockPixels {
                        row_->count, pixels_.data(), stride_);
   }
 
+  /// No block takes light away where there is none that is negative.
+  void clamp_negative() {
+    float* const pixels = pixels_.data();
+    for (std::size_t i = 0; i < row_->count * stride_; ++i) pixels[i] = std::max(pixels[i], 0.0f);
+  }
+
   /// Writes the pixels, or adds them to those that an earlier block has begun.
   void write(const PixelView& out, std::size_t channel) const {
     float* const corner = out.data + static_cast<std::ptrdiff_t>(channel) * out.channel_stride +
@@ -115,6 +121,7 @@ FREQSYNTH_INLINE void reconstruct(const FrequencyImage& image,
       pixels.go_to(columns[bx], rows[by]);
       for (std::size_t channel = 0; channel < image.channels(); ++channel) {
         pixels.compute(image.coefficients(bx, by, channel), factor);
+        if (image.non_negative(channel)) pixels.clamp_negative();
         pixels.write(view, channel);
       }
     }
@@ -174,7 +181,7 @@ FREQSYNTH_INLINE void evaluate(const FrequencyImage& image, const ButterworthSet
     for (std::size_t i = 0; i < max_terms; ++i) {
       sum += terms[i] * double{coefficients[i] * factor[i]};
     }
-    values[channel] = static_cast<float>(sum);
+    values[channel] = static_cast<float>(image.non_negative(channel) ? std::max(sum, 0.0) : sum);
   }
 }
 

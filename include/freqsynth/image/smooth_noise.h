@@ -18,7 +18,7 @@
 
 namespace freqsynth {
 
-/// Smooths channels of a picture. Where no sample of a channel is negative no pixel is.
+/// Smooths channels of a picture.
 /// \param picture   pixels of `channels` are replaced; those of `features` lose steps on the borders
 ///                  of blocks
 /// \param channels  those that have noise

@@ -115,12 +115,8 @@ FREQSYNTH_INLINE void smooth_noise(NoisyPicture& picture, std::span<const std::s
     guides.clear();
   }
   for (const std::size_t channel : channels) {
-    NoisyPicture::Plane& pixels = picture.pixels[channel];
-    detail::pool_levels(picture, picture.sums[channel], pixels);
+    detail::pool_levels(picture, picture.sums[channel], picture.pixels[channel]);
     close_borders(channel, last_border);
-    const NoisyPicture::Plane& all = picture.sums[channel];
-    if (*std::min_element(all.begin(), all.end()) < 0) continue;
-    for (float& pixel : pixels) pixel = std::max(0.0f, pixel);
   }
 }
 
