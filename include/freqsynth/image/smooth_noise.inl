@@ -76,7 +76,7 @@ FREQSYNTH_INLINE void smooth_noise(NoisyPicture& picture, std::span<const std::s
   struct Pass {
     double ridge, border;
   };
-  constexpr Pass passes[] = {{4, 1}, {1.2, 0.3}};
+  constexpr Pass passes[] = {{3, 1}, {0.6, 0.3}};
   constexpr double last_border = 0.1;
   const auto close_borders = [&](std::size_t channel, double variance) {
     detail::close_borders(picture, picture.sums[channel], variance, picture.pixels[channel]);
@@ -84,7 +84,7 @@ FREQSYNTH_INLINE void smooth_noise(NoisyPicture& picture, std::span<const std::s
 
   // Pixels of many samples follow them closely, and leave nothing over that tells of noise. What a
   // block's fit leaves over does, but of samples that are evenly spread it says too much.
-  constexpr float share_of_variance = 0.25f;
+  constexpr float share_of_variance = 0.35f;
   std::vector<NoisyPicture::Plane> variances;
   for (const std::size_t channel : channels) {
     for (float& value : variances.emplace_back(picture.variances[channel])) {
