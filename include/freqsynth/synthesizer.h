@@ -23,8 +23,8 @@
 #include "freqsynth/engine/priority.h"
 #include "freqsynth/engine/sampling_loop.h"
 #include "freqsynth/engine/stop_rule.h"
+#include "freqsynth/image/finish_settings.h"
 #include "freqsynth/image/frequency_image.h"
-#include "freqsynth/image/pixel_finisher.h"
 #include "freqsynth/jpeg/quantization_target.h"
 #include "freqsynth/sampler.h"
 

@@ -19,7 +19,9 @@ struct BlockResidual {
   double sum = 0;      ///< sum of the differences of the samples
   double level = 0;    ///< mean of the pixels
 
-  /// Variance of a sample, of two blocks together.
+  /// Variance of a sample.
+  [[nodiscard]] double variance() const { return squares / std::max(1.0, sampled); }
+  /// The same of two blocks together.
   [[nodiscard]] static double variance(const BlockResidual& a, const BlockResidual& b) {
     return (a.squares + b.squares) / std::max(1.0, a.sampled + b.sampled);
   }
@@ -115,8 +117,9 @@ FREQSYNTH_INLINE void close_borders(const NoisyPicture& picture, std::span<const
 inline std::vector<double> level_corrections(const std::vector<BlockResidual>& blocks,
                                              std::size_t blocks_x) {
   constexpr std::size_t reach = 4;
+  constexpr double usual = 0.65;  // a share of blocks
   const std::size_t blocks_y = blocks.size() / blocks_x;
-  std::vector<double> corrections(blocks.size());
+  std::vector<double> corrections(blocks.size()), variances;
   const auto visit_around = [&](std::size_t x, std::size_t y, auto&& visit) {
     for (std::size_t v = y - std::min(y, reach); v < std::min(y + reach + 1, blocks_y); ++v) {
       for (std::size_t u = x - std::min(x, reach); u < std::min(x + reach + 1, blocks_x); ++u) {
@@ -128,18 +131,23 @@ inline std::vector<double> level_corrections(const std::vector<BlockResidual>& b
   };
   for (std::size_t y = 0; y < blocks_y; ++y) {
     for (std::size_t x = 0; x < blocks_x; ++x) {
-      double shares = 0, samples = 0, sum = 0, squares = 0, sampled = 0;
+      double shares = 0, samples = 0, sum = 0;
+      variances.clear();
       visit_around(x, y, [&](const BlockResidual& block, double share) {
+        if (!(block.sampled > 0)) return;
         shares += share;
         samples += share * block.samples;
         sum += share * (block.samples * block.level + block.sum);
-        squares += share * block.squares;
-        sampled += share * block.sampled;
+        variances.push_back(block.variance());
       });
-      if (!(sampled > 0)) continue;
+      if (variances.empty()) continue;
       const double mean = sum / samples;
-      const double variance = squares / sampled;  // of a sample
-      double spread = 0;                          // of the levels
+      // Not the mean: a part of the picture with far more noise must not speak for the others.
+      const auto place = variances.begin() + static_cast<std::ptrdiff_t>(
+                                                 usual * static_cast<double>(variances.size() - 1));
+      std::nth_element(variances.begin(), place, variances.end());
+      const double variance = *place;  // of a sample
+      double spread = 0;               // of the levels
       visit_around(x, y, [&](const BlockResidual& block, double share) {
         spread += share * block.samples * (block.level - mean) * (block.level - mean);
       });

@@ -24,7 +24,6 @@
 #include "freqsynth/basis/config.h"
 #include "freqsynth/basis/shared_list.h"
 #include "freqsynth/image/finish_settings.h"
-#include "freqsynth/image/lift_negative.h"
 #include "freqsynth/image/own_means.h"
 #include "freqsynth/image/pixel_agreement.h"
 #include "freqsynth/image/shared_border.h"

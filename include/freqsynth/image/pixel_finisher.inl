@@ -11,6 +11,7 @@
 #include "freqsynth/basis/float_bits.h"
 #include "freqsynth/basis/inverse_list.h"
 #include "freqsynth/basis/kernels.h"
+#include "freqsynth/image/lift_negative.h"
 #include "freqsynth/image/pixel_finisher.h"
 
 namespace freqsynth {
