@@ -214,7 +214,7 @@ constexpr Configuration configurations[] = {
     {"change", change, 0x3cf78ca4bb9c2f7du},
     {"strict", strict, 0x54524a16bdf84efcu},
     {"weighted", weighted, 0xc3cc5f9dc17c5ca2u},
-    {"noisy", noisy, 0x30afb8a74bd56d8fu},
+    {"noisy", noisy, 0xb8323ab7f61f036bu},
     {"until_quantized", until_quantized, 0x36087b5cb6e76993u},
     {"threshold", threshold, 0xb4db26908e677fc2u},
     {"capped", capped, 0x8e992b5183e04e6fu},

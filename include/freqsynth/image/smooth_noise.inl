@@ -42,6 +42,42 @@ inline void check_picture(const NoisyPicture& picture, std::span<const std::size
   }
 }
 
+/// Calls take(a, b) with each value of a line of `length` values and with those up to `reach` away.
+template <class Take>
+void visit_near(std::size_t length, std::size_t reach, Take&& take) {
+  for (std::size_t i = 0; i < length; ++i) {
+    for (std::size_t j = i - std::min(i, reach); j < std::min(i + reach + 1, length); ++j) {
+      take(i, j);
+    }
+  }
+}
+
+/// Holds pixels within the range of `known` in the 5 x 5 pixels around each: regressions ring
+/// beside what is far brighter.
+inline void hold_within(const NoisyPicture& picture, std::span<const float> known,
+                        std::span<float> pixels) {
+  constexpr std::size_t reach = 2;
+  const std::size_t width = picture.width;
+  NoisyPicture::Plane low(known.begin(), known.end()), high = low;
+  for (std::size_t y = 0; y < picture.height; ++y) {
+    const std::size_t row = y * width;
+    visit_near(width, reach, [&](std::size_t x, std::size_t other) {
+      low[row + x] = std::min(low[row + x], known[row + other]);
+      high[row + x] = std::max(high[row + x], known[row + other]);
+    });
+  }
+  NoisyPicture::Plane least = low, most = high;
+  visit_near(picture.height, reach, [&](std::size_t y, std::size_t other) {
+    for (std::size_t x = 0; x < width; ++x) {
+      least[y * width + x] = std::min(least[y * width + x], low[other * width + x]);
+      most[y * width + x] = std::max(most[y * width + x], high[other * width + x]);
+    }
+  });
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    pixels[i] = std::clamp(pixels[i], least[i], most[i]);
+  }
+}
+
 /// Features as guides. Those that are the same everywhere tell nothing.
 /// \param at_samples  gets what the guides refer to
 inline std::vector<GuidedRegression::Guide> feature_guides(
@@ -107,7 +143,9 @@ FREQSYNTH_INLINE void smooth_noise(NoisyPicture& picture, std::span<const std::s
     const GuidedRegression regression(picture, {2, 2}, guides, sums);
     std::vector<NoisyPicture::Plane> predictions;
     for (std::size_t t = 0; t < channels.size(); ++t) {
-      regression.predict(t, predictions.emplace_back(picture.pixels[channels[t]]));
+      const NoisyPicture::Plane& pilot = picture.pixels[channels[t]];
+      regression.predict(t, predictions.emplace_back(pilot));
+      detail::hold_within(picture, pilot, predictions.back());
     }
     for (std::size_t t = 0; t < channels.size(); ++t) {
       picture.pixels[channels[t]] = std::move(predictions[t]);
