@@ -106,11 +106,14 @@ Real prediction(const NoisyPicture& picture, const GuidedRegression::Window& win
     mean += cells * sums[pixel];
     for (std::size_t k = 0; k < terms; ++k) means[k] += cells * w * row[k];
     for (std::size_t g = 0; g < guides.size(); ++g) {
-      const Real left = sums[pixel] / w - guides[g].at_pixels[pixel];
       const std::size_t block =
           pixel / picture.width / 8 * (picture.width / 8) + pixel % picture.width / 8;
-      const float* least = guides[g].least_variances;
-      residuals[g] += cells * std::max(w * left * left, least ? Real{least[block]} : 0);
+      Real variance = guides[g].variances ? Real{guides[g].variances[block]} : 0;
+      if (guides[g].of_target == 0) {
+        const Real left = sums[pixel] / w - guides[g].at_pixels[pixel];
+        variance = std::max(variance, w * left * left);
+      }
+      residuals[g] += cells * variance;
     }
   });
   mean /= weight;
@@ -128,8 +131,8 @@ Real prediction(const NoisyPicture& picture, const GuidedRegression::Window& win
     }
   });
   for (std::size_t g = 0; g < guides.size(); ++g) {
-    const bool pilot = guides[g].of_target != GuidedRegression::no_target;
-    matrix[g][g] += guides[g].ridge * (pilot ? residuals[g] / sampled * (pixels / weight) : 1);
+    const Real noise = residuals[g] / sampled * (pixels / weight);
+    matrix[g][g] += guides[g].ridge + guides[g].noise_ridge * noise;
   }
   matrix[terms - 2][terms - 2] += 0.02L;
   matrix[terms - 1][terms - 1] += 0.02L;
@@ -145,9 +148,8 @@ TEST(GuidedRegression, IsTheWeightedLeastSquaresOfEachCell) {
   const NoisyPicture& picture = example.picture;
   const std::vector<float> least = {0, 0.1f, 0, 0.2f, 0.05f, 1};
   std::vector<Guide> guides;
-  guides.push_back(
-      {example.guides[0].data(), example.guides[1].data(), 0.01, GuidedRegression::no_target});
-  guides.push_back({example.guides[2].data(), example.guides[2].data(), 0.5, 0, least.data()});
+  guides.push_back({example.guides[0].data(), example.guides[1].data(), 0.01, 0.5, least.data()});
+  guides.push_back({example.guides[2].data(), example.guides[2].data(), 0, 0.5, least.data(), 0});
   for (const GuidedRegression::Window window : {GuidedRegression::Window{2, 2}, {4, 1}, {8, 0}}) {
     const GuidedRegression regression(picture, window, guides,
                                       {picture.sums[0].data(), picture.sums[1].data()});
@@ -186,9 +188,8 @@ TEST(GuidedRegression, IsExactOnTargetsThatAreLinearInAGuide) {
   for (std::size_t i = 0; i < at_samples.size(); ++i) {
     picture.sums[0][i] = picture.weights[i] * (3 * at_samples[i] - 1);
   }
-  const GuidedRegression regression(
-      picture, {2, 2}, {{at_samples.data(), at_pixels.data(), 0, GuidedRegression::no_target}},
-      {picture.sums[0].data()});
+  const GuidedRegression regression(picture, {2, 2}, {{at_samples.data(), at_pixels.data(), 0}},
+                                    {picture.sums[0].data()});
   Plane found(32 * 32);
   regression.predict(0, found);
   for (std::size_t i = 0; i < found.size(); ++i) ASSERT_NEAR(found[i], 3 * at_pixels[i] - 1, 1e-4f);

@@ -155,6 +155,21 @@ TEST(SmoothNoise, FeaturesKeepTheirEdges) {
   EXPECT_EQ(with.pixels[1], feature) << "features without noise stay";
 }
 
+// As colours seen through a lens: what such a feature has of its own noise is not to be seen.
+TEST(SmoothNoise, FeaturesWithNoiseOfTheirOwnAddNone) {
+  Plane right(128 * 128);
+  for (std::size_t i = 0; i < right.size(); ++i) right[i] = 0.01f * static_cast<float>(i % 128);
+  NoisyPicture without = noisy_picture(128, 128, right, 1, 0.3f, 10);
+  NoisyPicture with = without;
+  const NoisyPicture feature = noisy_picture(128, 128, right, 1, 0.3f, 11);
+  with.sums.push_back(feature.sums[0]);
+  with.pixels.push_back(feature.pixels[0]);
+  with.variances.push_back(feature.variances[0]);
+  smooth_noise(with, std::vector<std::size_t>{0}, std::vector<std::size_t>{1});
+  smooth_noise(without, std::vector<std::size_t>{0}, {});
+  EXPECT_LT(rms(with.pixels[0], right), 1.05 * rms(without.pixels[0], right));
+}
+
 TEST(SmoothNoise, DoesNotDependOnTheUnit) {
   const Plane right = levels(64, 64, 0.5f);
   NoisyPicture picture = noisy_picture(64, 64, right, 2, 0.3f, 9);

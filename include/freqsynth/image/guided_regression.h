@@ -30,12 +30,14 @@ class FREQSYNTH_API GuidedRegression {
   struct Guide {
     const float* at_samples;  ///< of each pixel, the mean over its samples
     const float* at_pixels;   ///< of each pixel, the mean over its area
-    double ridge;             ///< added to the guide's variance in a cell, in its own unit squared
-    /// The number of the target that the guide is an estimate of: then the ridge is in units of the
-    /// variance of a pixel's mean. That of a sample is what the guide leaves over in the window,
+    double ridge;  ///< added to the guide's variance in a window, in its own unit squared
+    /// Another ridge, in units of the variance that noise gives to a pixel's mean.
+    double noise_ridge = 0;
+    /// The variance of a sample is at least this in each block (row by row), 0 without any.
+    const float* variances = nullptr;
+    /// The number of the target that the guide is an estimate of: then the variance of a sample is
+    /// at least what the guide leaves over of it.
     std::size_t of_target = no_target;
-    /// in each block (row by row) at least this.
-    const float* least_variances = nullptr;
   };
   /// What counts for a fit.
   struct Window {
@@ -51,11 +53,12 @@ class FREQSYNTH_API GuidedRegression {
   void predict(std::size_t target, std::span<float> pixels) const;
 
  private:
-  // A cell's sums: weight, pixels with samples, of each target its sum and its residual, of each
-  // term its sum, of each pair of terms and of each term and target the product's.
+  // A cell's sums: weight, pixels with samples, of each target its sum, of each guide the variance
+  // of samples, of each term its sum, of each pair of terms and of each term and target the
+  // product's.
   [[nodiscard]] std::size_t first_target() const { return 2; }
-  [[nodiscard]] std::size_t first_residual() const { return first_target() + sums_.size(); }
-  [[nodiscard]] std::size_t first_term() const { return first_residual() + sums_.size(); }
+  [[nodiscard]] std::size_t first_variance() const { return first_target() + sums_.size(); }
+  [[nodiscard]] std::size_t first_term() const { return first_variance() + guides_.size(); }
   [[nodiscard]] std::size_t first_pair() const { return first_term() + terms_; }
   [[nodiscard]] std::size_t first_product() const {
     return first_pair() + terms_ * (terms_ + 1) / 2;

@@ -62,7 +62,8 @@ FREQSYNTH_INLINE GuidedRegression::GuidedRegression(const NoisyPicture& picture,
       cells_x_(picture.width / window_.cell),
       cells_y_(picture.height / window_.cell),
       terms_(guides_.size() + 2),
-      moments_(2 + 2 * sums_.size() + terms_ + terms_ * (terms_ + 1) / 2 + terms_ * sums_.size()),
+      moments_(2 + sums_.size() + guides_.size() + terms_ + terms_ * (terms_ + 1) / 2 +
+               terms_ * sums_.size()),
       slopes_(terms_ + 1) {
   fit_all();
 }
@@ -86,14 +87,16 @@ FREQSYNTH_INLINE void GuidedRegression::collect(std::size_t cell_y, std::span<do
       for (std::size_t t = 0; t < sums_.size(); ++t) {
         m[first_target() + t] += static_cast<double>(sums_[t][pixel]);
       }
-      for (const Guide& guide : guides_) {
-        if (guide.of_target == no_target) continue;
-        const double left = static_cast<double>(sums_[guide.of_target][pixel]) / weight -
-                            static_cast<double>(guide.at_pixels[pixel]);
-        const std::size_t block = y / block_size * (picture_.width / block_size) + x / block_size;
-        const double least =
-            guide.least_variances ? static_cast<double>(guide.least_variances[block]) : 0;
-        m[first_residual() + guide.of_target] += std::max(weight * left * left, least);
+      const std::size_t block = y / block_size * (picture_.width / block_size) + x / block_size;
+      for (std::size_t g = 0; g < guides_.size(); ++g) {
+        const Guide& guide = guides_[g];
+        double variance = guide.variances ? static_cast<double>(guide.variances[block]) : 0;
+        if (guide.of_target != no_target) {
+          const double left = static_cast<double>(sums_[guide.of_target][pixel]) / weight -
+                              static_cast<double>(guide.at_pixels[pixel]);
+          variance = std::max(variance, weight * left * left);
+        }
+        m[first_variance() + g] += variance;
       }
       double* pairs = m + first_pair();
       double* products = m + first_product();
@@ -121,12 +124,8 @@ FREQSYNTH_INLINE void GuidedRegression::fit_cell(std::span<const double> sums, d
     }
     double ridge = 0.02;  // of positions, in cells
     if (i < guides_.size()) {
-      const Guide& guide = guides_[i];
-      ridge = guide.ridge;
-      if (guide.of_target != no_target) {
-        const double noise = sums[first_residual() + guide.of_target] / sums[1];
-        ridge *= noise * windows / weight;
-      }
+      const double noise = sums[first_variance() + i] / sums[1];
+      ridge = guides_[i].ridge + guides_[i].noise_ridge * noise * windows / weight;
     }
     double& variance = matrix_[i * terms_ + i];
     variance = std::max(variance, 0.0) + ridge;

@@ -78,23 +78,52 @@ inline void hold_within(const NoisyPicture& picture, std::span<const float> know
   }
 }
 
+/// Of each block the least value of those in it and in the eight around it.
+inline NoisyPicture::Plane least_around(const NoisyPicture::Plane& values, std::size_t blocks_x) {
+  const std::size_t blocks_y = values.size() / blocks_x;
+  NoisyPicture::Plane lines = values;
+  for (std::size_t y = 0; y < blocks_y; ++y) {
+    visit_near(blocks_x, 1, [&](std::size_t x, std::size_t other) {
+      float& least = lines[y * blocks_x + x];
+      least = std::min(least, values[y * blocks_x + other]);
+    });
+  }
+  NoisyPicture::Plane all = lines;
+  visit_near(blocks_y, 1, [&](std::size_t y, std::size_t other) {
+    for (std::size_t x = 0; x < blocks_x; ++x) {
+      float& least = all[y * blocks_x + x];
+      least = std::min(least, lines[other * blocks_x + x]);
+    }
+  });
+  return all;
+}
+
+/// What feature_guides() refers to, of each feature.
+struct FeatureSamples {
+  NoisyPicture::Plane means;      // of the samples of each pixel
+  NoisyPicture::Plane variances;  // of each block
+};
+
 /// Features as guides. Those that are the same everywhere tell nothing.
-/// \param at_samples  gets what the guides refer to
-inline std::vector<GuidedRegression::Guide> feature_guides(
-    const NoisyPicture& picture, std::span<const std::size_t> features,
-    std::vector<NoisyPicture::Plane>& at_samples) {
+inline std::vector<GuidedRegression::Guide> feature_guides(const NoisyPicture& picture,
+                                                           std::span<const std::size_t> features,
+                                                           std::vector<FeatureSamples>& samples) {
   constexpr double ridge = 0.01;  // of the variance over the picture
+  constexpr double noise_ridge = 4;
   std::vector<GuidedRegression::Guide> guides;
-  at_samples.reserve(features.size());
+  samples.reserve(features.size());
   for (const std::size_t channel : features) {
     const NoisyPicture::Plane& pixels = picture.pixels[channel];
     const double spread = deviation(pixels);
     if (!(spread > 0)) continue;
-    NoisyPicture::Plane& plane = at_samples.emplace_back(pixels);
-    for (std::size_t i = 0; i < plane.size(); ++i) {
-      if (picture.weights[i] > 0) plane[i] = picture.sums[channel][i] / picture.weights[i];
+    // An edge of a feature is in some blocks only, noise of one is around as well.
+    auto& [means, variances] = samples.emplace_back(FeatureSamples{
+        pixels, least_around(picture.variances[channel], picture.width / block_size)});
+    for (std::size_t i = 0; i < means.size(); ++i) {
+      if (picture.weights[i] > 0) means[i] = picture.sums[channel][i] / picture.weights[i];
     }
-    guides.push_back({plane.data(), pixels.data(), ridge * spread * spread});
+    guides.push_back(
+        {means.data(), pixels.data(), ridge * spread * spread, noise_ridge, variances.data()});
   }
   return guides;
 }
@@ -131,14 +160,14 @@ FREQSYNTH_INLINE void smooth_noise(NoisyPicture& picture, std::span<const std::s
   std::vector<const float*> sums;
   for (const std::size_t channel : channels) sums.push_back(picture.sums[channel].data());
   for (const std::size_t channel : features) close_borders(channel, passes[0].border);
-  std::vector<NoisyPicture::Plane> at_samples;
+  std::vector<detail::FeatureSamples> feature_samples;
   std::vector<GuidedRegression::Guide> guides =
-      detail::feature_guides(picture, features, at_samples);
+      detail::feature_guides(picture, features, feature_samples);
   for (const Pass& pass : passes) {
     for (std::size_t t = 0; t < channels.size(); ++t) {
       close_borders(channels[t], pass.border);
       const float* pilot = picture.pixels[channels[t]].data();
-      guides.push_back({pilot, pilot, pass.ridge, t, variances[t].data()});
+      guides.push_back({pilot, pilot, 0, pass.ridge, variances[t].data(), t});
     }
     const GuidedRegression regression(picture, {2, 2}, guides, sums);
     std::vector<NoisyPicture::Plane> predictions;
