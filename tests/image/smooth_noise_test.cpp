@@ -158,14 +158,20 @@ TEST(SmoothNoise, FeaturesKeepTheirEdges) {
 // As colours seen through a lens: what such a feature has of its own noise is not to be seen.
 TEST(SmoothNoise, FeaturesWithNoiseOfTheirOwnAddNone) {
   Plane right(128 * 128);
-  for (std::size_t i = 0; i < right.size(); ++i) right[i] = 0.01f * static_cast<float>(i % 128);
-  NoisyPicture without = noisy_picture(128, 128, right, 1, 0.3f, 10);
+  for (std::size_t i = 0; i < right.size(); ++i) {
+    right[i] = std::sin(0.2f * static_cast<float>(i % 128));
+  }
+  NoisyPicture without = noisy_picture(128, 128, right, 1, 1.5f, 10);
   NoisyPicture with = without;
-  const NoisyPicture feature = noisy_picture(128, 128, right, 1, 0.3f, 11);
-  with.sums.push_back(feature.sums[0]);
-  with.pixels.push_back(feature.pixels[0]);
-  with.variances.push_back(feature.variances[0]);
-  smooth_noise(with, std::vector<std::size_t>{0}, std::vector<std::size_t>{1});
+  std::vector<std::size_t> features;
+  for (unsigned f = 1; f <= 6; ++f) {
+    const NoisyPicture feature = noisy_picture(128, 128, right, 1, 1.0f, 10 + f);
+    with.sums.push_back(feature.sums[0]);
+    with.pixels.push_back(feature.pixels[0]);
+    with.variances.push_back(feature.variances[0]);
+    features.push_back(f);
+  }
+  smooth_noise(with, std::vector<std::size_t>{0}, features);
   smooth_noise(without, std::vector<std::size_t>{0}, {});
   EXPECT_LT(rms(with.pixels[0], right), 1.05 * rms(without.pixels[0], right));
 }
