@@ -37,8 +37,8 @@ Example random_example(std::size_t width, std::size_t height, unsigned seed) {
   for (float& weight : picture.weights) weight = weight < 0.3f ? 0 : 3 * weight;
   for (int c = 0; c < 2; ++c) {
     picture.pixels.push_back(plane());
-    picture.sums.push_back(plane());
-    for (std::size_t i = 0; i < width * height; ++i) picture.sums[c][i] *= picture.weights[i];
+    Plane& sums = picture.sums.emplace_back(plane());
+    for (std::size_t i = 0; i < width * height; ++i) sums[i] *= picture.weights[i];
   }
   for (int i = 0; i < 4; ++i) example.guides.push_back(plane());
   return example;
