@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <string>
 #include <utility>
 #include <variant>
@@ -24,13 +23,18 @@
 namespace freqsynth {
 namespace detail {
 
+/// The channels of that role.
+inline std::vector<std::size_t> channels_of(const SynthesisSettings& settings, ChannelRole role) {
+  std::vector<std::size_t> channels;
+  for (std::size_t c = 0; c < settings.channel_settings.size(); ++c) {
+    if (settings.channel_settings[c].role == role) channels.push_back(c);
+  }
+  return channels;
+}
+
 /// Number of channels that have no coefficients: the last ones.
 inline std::size_t nearest_channels(const SynthesisSettings& settings) {
-  const std::vector<ChannelSettings>& all = settings.channel_settings;
-  const auto is_nearest = [](const ChannelSettings& one) {
-    return one.role == ChannelRole::nearest;
-  };
-  return static_cast<std::size_t>(std::count_if(all.begin(), all.end(), is_nearest));
+  return channels_of(settings, ChannelRole::nearest).size();
 }
 
 inline void check_channels(const SynthesisSettings& settings) {
@@ -59,15 +63,6 @@ inline void check_channels(const SynthesisSettings& settings) {
                 (is_finite(weight) && weight >= 1e-30f && weight <= 1e6f),
             "one of channel_settings' weights", weight, "in 1e-30..1e6");
   }
-}
-
-/// The channels of that role.
-inline std::vector<std::size_t> channels_of(const SynthesisSettings& settings, ChannelRole role) {
-  std::vector<std::size_t> channels;
-  for (std::size_t c = 0; c < settings.channel_settings.size(); ++c) {
-    if (settings.channel_settings[c].role == role) channels.push_back(c);
-  }
-  return channels;
 }
 
 /// Weight of each channel that has coefficients: shares of 1, and 0 for those that do not steer.

@@ -68,6 +68,8 @@ class FREQSYNTH_API PixelFinisher {
  private:
   void finish_without_gaps(const BlockFit& fit, std::span<float, max_terms> out,
                            const PixelEvidence& evidence) const;
+  void leave_out(std::span<const Gap> gaps, std::span<float, max_terms> weights,
+                 std::span<float, max_terms> sums) const;
   void filter(const BlockFit& fit, std::span<float, max_terms> filtered) const;
   double measured_doubt(const BlockFit& fit, std::span<const float, max_terms> filtered,
                         const detail::AlignedBlock& means) const;

@@ -192,19 +192,26 @@ FREQSYNTH_INLINE void PixelFinisher::bound(const BlockFit& fit, std::span<float,
   OwnMeans(evidence.own_means).hold(pixels, range, static_cast<float>(settings_.ringing));
 }
 
+/// Takes samples out of the number of samples of each pixel and of their sums.
+FREQSYNTH_INLINE void PixelFinisher::leave_out(std::span<const Gap> gaps,
+                                               std::span<float, max_terms> weights,
+                                               std::span<float, max_terms> sums) const {
+  for (const Gap& gap : gaps) {
+    const detail::SampleRow& row = list_->row(gap.sample);
+    for (std::size_t p = 0; p < row.pixel_count; ++p) {
+      weights[row.pixels[p]] -= row.pixel_weights[p];
+      sums[row.pixels[p]] -= gap.value * row.pixel_weights[p];
+    }
+  }
+}
+
 FREQSYNTH_INLINE void PixelFinisher::pixel_samples(const BlockFit& fit,
                                                    std::span<const float, max_terms> otherwise,
                                                    std::span<float, max_terms> weights,
                                                    std::span<float, max_terms> sums) const {
   std::array<float, max_terms> good = weights_;
   std::copy(fit.pixel_sums.begin(), fit.pixel_sums.end(), sums.begin());
-  for (const Gap& gap : fit.gaps) {
-    const detail::SampleRow& row = list_->row(gap.sample);
-    for (std::size_t p = 0; p < row.pixel_count; ++p) {
-      good[row.pixels[p]] -= row.pixel_weights[p];
-      sums[row.pixels[p]] -= gap.value * row.pixel_weights[p];
-    }
-  }
+  leave_out(fit.gaps, good, sums);
   for (std::size_t pixel = 0; pixel < max_terms; ++pixel) {
     weights[pixel] = weights_[pixel];
     if (fit.gaps.empty()) continue;
@@ -220,13 +227,11 @@ FREQSYNTH_INLINE void PixelFinisher::finish_without_gaps(const BlockFit& fit,
   PixelFinisher others(*this);
   std::array<float, max_terms> pixel_sums;
   std::copy(fit.pixel_sums.begin(), fit.pixel_sums.end(), pixel_sums.begin());
+  leave_out(fit.gaps, others.weights_, pixel_sums);
   for (const Gap& gap : fit.gaps) {
     const detail::SampleRow& row = list_->row(gap.sample);
     for (std::size_t p = 0; p < row.pixel_count; ++p) {
-      const std::size_t pixel = row.pixels[p];
-      pixel_sums[pixel] -= gap.value * row.pixel_weights[p];
-      others.weights_[pixel] -= row.pixel_weights[p];
-      float* sums = others.sums_.data() + pixel * max_terms;
+      float* sums = others.sums_.data() + row.pixels[p] * max_terms;
       for (std::size_t i = 0; i < max_terms; ++i) {
         sums[detail::zigzag_to_row_major[i]] -= row.pixel_weights[p] * (row.fit[i] + row.rest[i]);
       }
