@@ -8,6 +8,7 @@
 
 #include "baseline_helpers.h"
 #include "baselines/supersampling.h"
+#include "support/is_net.h"
 
 namespace baselines {
 namespace {
@@ -122,22 +123,6 @@ TEST(RotatedGrid, HasAsManyLevelsAsSamplesOnANearlyVerticalEdge) {
   EXPECT_EQ(levels.size(), 17u);
 }
 
-/// Whether each of the rectangles of area 2^-m whose sides are powers of two holds one of the 2^m
-/// points: what a (0, m, 2)-net is.
-bool is_net(std::span<const std::array<std::uint32_t, 2>> points, unsigned m) {
-  for (unsigned across = 0; across <= m; ++across) {
-    std::set<std::uint64_t> cells;
-    for (const auto& [x, y] : points) {
-      // Not shifts by all 32 bits, which have no meaning.
-      const std::uint64_t column = std::uint64_t{x} >> (32 - across);
-      const std::uint64_t row = std::uint64_t{y} >> (32 - (m - across));
-      cells.insert((column << 32) | row);
-    }
-    if (cells.size() != points.size()) return false;
-  }
-  return true;
-}
-
 TEST(SobolBox, SamplesOfEachPixelAreANetOfItsOwn) {
   std::vector<std::vector<std::array<std::uint32_t, 2>>> seen(4 * 3);
   std::vector<double> means(seen.size(), 0.0);
@@ -154,7 +139,7 @@ TEST(SobolBox, SamplesOfEachPixelAreANetOfItsOwn) {
   EXPECT_EQ(distinct.size(), seen.size());
   for (std::size_t i = 0; i < seen.size(); ++i) {
     ASSERT_EQ(seen[i].size(), 16u);
-    EXPECT_TRUE(is_net(seen[i], 4)) << i;
+    EXPECT_TRUE(helpers::is_net(seen[i], 4)) << i;
     EXPECT_NEAR(rendering.pixels[i * 3], means[i], 1e-5);
   }
 }

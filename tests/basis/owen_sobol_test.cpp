@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "freqsynth/basis/mix_bits.h"
+#include "support/is_net.h"
 
 namespace freqsynth {
 namespace {
@@ -148,22 +149,6 @@ bool is_stratified(std::span<const std::uint32_t> values, unsigned m) {
   return cells.size() == values.size();
 }
 
-/// Whether each of the rectangles of area 2^-m whose sides are powers of two holds one of the 2^m
-/// points: what a (0, m, 2)-net is.
-bool is_net(std::span<const Pair> points, unsigned m) {
-  for (unsigned across = 0; across <= m; ++across) {
-    std::set<std::uint64_t> cells;
-    for (const auto& [x, y] : points) {
-      // Not shifts by all 32 bits, which have no meaning.
-      const std::uint64_t column = std::uint64_t{x} >> (32 - across);
-      const std::uint64_t row = std::uint64_t{y} >> (32 - (m - across));
-      cells.insert((column << 32) | row);
-    }
-    if (cells.size() != points.size()) return false;
-  }
-  return true;
-}
-
 TEST(OwenSobol, EveryPrefixOfAPowerOfTwoIsStratified) {
   for (unsigned m = 0; m <= 9; ++m) {
     for (std::uint64_t pixel = 0; pixel < 12; ++pixel) {
@@ -174,7 +159,7 @@ TEST(OwenSobol, EveryPrefixOfAPowerOfTwoIsStratified) {
         points.push_back({point.bits(0), point.bits(1)});
         for (unsigned d = 0; d < sobol_dimensions; ++d) values[d].push_back(point.bits(d));
       }
-      ASSERT_TRUE(is_net(points, m)) << m << ' ' << pixel;
+      ASSERT_TRUE(helpers::is_net(points, m)) << m << ' ' << pixel;
       for (unsigned d = 0; d < sobol_dimensions; ++d) {
         ASSERT_TRUE(is_stratified(values[d], m)) << m << ' ' << pixel << ' ' << d;
       }
@@ -191,7 +176,7 @@ TEST(OwenSobol, SoIsEveryRunThatStartsAtAMultipleOfItsLength) {
         const OwenSobol point(pixel, first + i);
         points.push_back({point.bits(0), point.bits(1)});
       }
-      ASSERT_TRUE(is_net(points, m)) << first << ' ' << pixel;
+      ASSERT_TRUE(helpers::is_net(points, m)) << first << ' ' << pixel;
     }
   }
 }
