@@ -23,10 +23,10 @@ namespace detail {
 FREQSYNTH_API void close_borders(const NoisyPicture& picture, std::span<const float> sums,
                                  double variance, std::span<float> pixels);
 
-/// Draws the levels of blocks to that of all samples around where they differ no more than noise
-/// would make them (empirical Bayes). A block that was sampled until it had seen light, or was left
-/// because it had seen none, has a level that is biased; the sum of all samples around over their
-/// number is not (Wald).
+/// Draws the levels of blocks to that of all samples around where they differ no more than the
+/// noise that is usual there would make them (empirical Bayes). A block that was sampled until it
+/// had seen light, or was left because it had seen none, has a level that is biased; the sum of all
+/// samples around over their number is not (Wald).
 /// \param pixels  of one channel, changed in place
 /// \param sums    of the channel's samples in each pixel
 FREQSYNTH_API void pool_levels(const NoisyPicture& picture, std::span<const float> sums,

@@ -7,7 +7,8 @@
 /// result. These guides are made of the same samples, so their noise agrees with the samples'.
 /// Hence ridges in proportion to the variance that the noise of a pixel's mean has. In between,
 /// steps that noise leaves on borders of blocks are taken back, and so are differences between
-/// blocks that are noise alone.
+/// blocks that are noise alone. Each pass stays within the range of the pixels that it began with,
+/// 5 x 5 around each.
 #pragma once
 
 #include <cstddef>
