@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "freqsynth/basis/byte_stream.h"
 #include "freqsynth/basis/config.h"
 #include "freqsynth/engine/block_grid.h"
 
@@ -104,11 +105,26 @@ class FrequencyImage {
     return samples_[block(block_x, block_y)];
   }
 
+  /// Saves the image: the same bytes on all machines, with check values. A file of them is written
+  /// by save_file(), see frequency_image_file.h.
+  /// \param sink  takes the bytes, some at a time
+  /// \throws what `sink` throws, std::bad_alloc.
+  FREQSYNTH_API void save(ByteSink sink) const;
+  /// Saves it into memory.
+  [[nodiscard]] FREQSYNTH_API std::vector<std::byte> save() const;
+  /// An image that was saved, to the bit. Takes no more memory than there are bytes.
+  /// \throws std::runtime_error naming the reason: when these are other bytes, damaged, too few or
+  ///         of a newer format; what `source` throws, std::bad_alloc.
+  [[nodiscard]] FREQSYNTH_API static FrequencyImage load(ByteSource source);
+
  private:
   struct Size {
     std::size_t width = 0, height = 0, channels = 1;
     std::size_t blocks_x = 0, blocks_y = 0;
   };
+
+  template <class Archive, class Self>
+  static void archive(Archive& archive, Self& self);
 
   [[nodiscard]] std::size_t block(std::size_t block_x, std::size_t block_y) const {
     FREQSYNTH_ASSERT(block_x < size_.blocks_x && block_y < size_.blocks_y);

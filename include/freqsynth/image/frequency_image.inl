@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
+#include <stdexcept>
 #include <utility>
 
+#include "freqsynth/basis/archive.h"
 #include "freqsynth/engine/block_grid.h"
 #include "freqsynth/image/frequency_image.h"
 
@@ -33,6 +36,67 @@ FREQSYNTH_INLINE FrequencyImage& FrequencyImage::operator=(FrequencyImage&& othe
   std::swap(samples_, taken.samples_);
   std::swap(non_negative_, taken.non_negative_);
   return *this;
+}
+
+/// All that is saved.
+template <class Archive, class Self>
+void FrequencyImage::archive(Archive& archive, Self& self) {
+  archive.section("SIZE", [&] {
+    auto& size = self.size_;
+    archive.count(size.width);
+    archive.count(size.height);
+    archive.count(size.channels);
+    archive.number(self.meaning_);
+    archive.check(self.meaning_ <= CoefficientMeaning::pixel_average);
+    if constexpr (Archive::loading) {
+      try {
+        const BlockGrid grid = BlockGrid::of(size.width, size.height, size.channels);
+        size.blocks_x = grid.blocks_x;
+        size.blocks_y = grid.blocks_y;
+      } catch (const std::invalid_argument&) {
+        archive.fail("has sizes that no image has");
+      }
+    }
+  });
+  const std::size_t blocks = self.size_.blocks_x * self.size_.blocks_y;
+  const std::size_t coefficients = blocks * self.size_.channels * max_terms;
+  // As lists, for the sizes may be wrong: then there are not as many numbers.
+  archive.section("COEF", [&] {
+    archive.list(self.coefficients_, coefficients);
+    archive.check(self.coefficients_.size() == coefficients);
+  });
+  archive.section("SMPL", [&] {
+    archive.list(self.samples_, blocks);
+    archive.check(self.samples_.size() == blocks);
+  });
+  archive.section("NNEG", [&] {
+    archive.list(self.non_negative_, self.size_.channels);
+    // An image that was moved from has none.
+    archive.check(self.non_negative_.size() == self.size_.channels ||
+                  (blocks == 0 && self.non_negative_.empty()));
+    for (const std::uint8_t one : self.non_negative_) archive.check(one <= 1);
+  });
+  archive.finish();
+}
+
+FREQSYNTH_INLINE void FrequencyImage::save(ByteSink sink) const {
+  detail::StateWriter writer(sink, detail::image_kind);
+  archive(writer, *this);
+}
+
+FREQSYNTH_INLINE std::vector<std::byte> FrequencyImage::save() const {
+  std::vector<std::byte> bytes;
+  save([&](std::span<const std::byte> more) {
+    bytes.insert(bytes.end(), more.begin(), more.end());
+  });
+  return bytes;
+}
+
+FREQSYNTH_INLINE FrequencyImage FrequencyImage::load(ByteSource source) {
+  FrequencyImage image;
+  detail::StateReader reader(source, detail::image_kind);
+  archive(reader, image);
+  return image;
 }
 
 }  // namespace freqsynth
