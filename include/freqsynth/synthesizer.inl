@@ -220,8 +220,8 @@ FREQSYNTH_INLINE RunReport Synthesizer::run_erased(const detail::SamplerRef& sam
 
 FREQSYNTH_INLINE FrequencyImage Synthesizer::image() const {
   return implementation_->with_engine([](const auto& engine) {
-    return engine.read(
-        [](const BlockGrid& grid, const auto& blocks) { return fit_image(grid, blocks); });
+    return engine.with_snapshot(
+        [](const BlockGrid& grid, const auto& blocks, bool) { return fit_image(grid, blocks); });
   });
 }
 
@@ -229,10 +229,11 @@ FREQSYNTH_INLINE FrequencyImage Synthesizer::finished_image(const FinishSettings
   const SharedInverseList& list = implementation_->settings.shared_list;
   const std::vector<std::size_t> features =
       detail::channels_of(implementation_->settings, ChannelRole::feature);
-  FinishSettings known = settings;
-  if (known.noise == Noise::automatic) known.noise = noisy() ? Noise::present : Noise::none;
+  settings.validate();
   return implementation_->with_engine([&](const auto& engine) {
-    return engine.read([&](const BlockGrid& grid, const auto& blocks) {
+    return engine.with_snapshot([&](const BlockGrid& grid, const auto& blocks, bool noisy) {
+      FinishSettings known = settings;
+      if (known.noise == Noise::automatic) known.noise = noisy ? Noise::present : Noise::none;
       return freqsynth::finished_image(grid, blocks, list, known, features);
     });
   });

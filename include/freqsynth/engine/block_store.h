@@ -15,6 +15,7 @@
 #include "freqsynth/basis/aligned.h"
 #include "freqsynth/basis/config.h"
 #include "freqsynth/basis/float_bits.h"
+#include "freqsynth/engine/state_keeper.h"
 #include "freqsynth/refine/gap_log.h"
 #include "freqsynth/refine/refiner.h"
 #include "freqsynth/sampler.h"
@@ -111,9 +112,26 @@ class BlockStore {
   /// Makes room, so that the next `more` calls of absorb() cannot fail.
   void reserve(std::size_t more) { gaps_.reserve(more * refiner_.channels()); }
 
- private:
+  // What a BlockSnapshot is made of.
+  /// Floats from a state to the next.
+  [[nodiscard]] std::size_t state_size() const { return stride_; }
+  /// The state of a block.
   [[nodiscard]] const float* state(std::size_t block) const {
     return states_.data() + block * stride_;
+  }
+  /// Samples of all blocks.
+  [[nodiscard]] std::span<const std::uint32_t> counts() const { return counts_; }
+  /// The gaps of all blocks.
+  [[nodiscard]] const GapLog& gap_log() const { return gaps_; }
+  /// From now on every state is shown to `keeper` before it changes; null: to nobody.
+  void watch(detail::StateKeeper* keeper) const { keeper_ = keeper; }
+
+ private:
+  /// To be called before a state changes, wherever that is.
+  void keep(std::size_t block) const {
+    if (keeper_) [[unlikely]] {
+      keeper_->keep(block, state(block));
+    }
   }
 
   [[nodiscard]] float undiluted(std::size_t block) const {
@@ -125,6 +143,7 @@ class BlockStore {
   std::size_t most_samples_;
   std::size_t stride_;  // whole cache lines
   detail::AlignedVector<float> states_;
+  mutable detail::StateKeeper* keeper_ = nullptr;
   std::vector<std::uint32_t> counts_;
   std::vector<std::uint32_t> missing_;  // of these, without a usable value where it counts
   GapLog gaps_;
@@ -166,7 +185,9 @@ void BlockStore<R>::use_units(std::span<const int> exponents, std::span<const fl
     factors_[c] = std::ldexp(1.0f, -exponents[c]);
     gaps_.rescale(c, std::ldexp(1.0f, difference));
     for (std::size_t b = 0; b < size(); ++b) {
-      if (counts_[b] > 0) refiner_.rescale(states_.data() + b * stride_, c, difference);
+      if (counts_[b] == 0) continue;
+      keep(b);
+      refiner_.rescale(states_.data() + b * stride_, c, difference);
     }
   }
 }
@@ -174,6 +195,7 @@ void BlockStore<R>::use_units(std::span<const int> exponents, std::span<const fl
 template <Refiner R>
 float BlockStore<R>::absorb(std::size_t block, const float* values) {
   FREQSYNTH_ASSERT(!full(block));
+  keep(block);
   std::uint32_t& count = counts_[block];
   if (count == 0) --untouched_;
   bool bad = false;

@@ -27,6 +27,7 @@
 #include "freqsynth/engine/block_grid.h"
 #include "freqsynth/engine/block_measure.h"
 #include "freqsynth/engine/block_set.h"
+#include "freqsynth/engine/block_snapshot.h"
 #include "freqsynth/engine/block_store.h"
 #include "freqsynth/engine/channel_units.h"
 #include "freqsynth/engine/edge_cache.h"
@@ -96,6 +97,11 @@ class Engine {
     const std::lock_guard lock(mutex_);
     return read(grid_, blocks_);
   }
+  /// Calls use(grid, snapshot, noisy()) with a BlockSnapshot of the blocks after the last complete
+  /// wave, while others go on sampling. One such call waits for another. \throws std::bad_alloc,
+  /// and what `use` throws.
+  template <class Use>
+  auto with_snapshot(Use&& use) const;
 
  private:
   static constexpr std::size_t most_bad_reported = 1000;
@@ -150,6 +156,7 @@ class Engine {
   std::uint64_t patience_ = unusable_at_most;
   std::vector<BadSample> bad_;
   mutable std::mutex mutex_;
+  mutable std::mutex snapshot_;  // of which there is one at a time; locked before the other
 };
 
 }  // namespace freqsynth

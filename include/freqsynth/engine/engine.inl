@@ -210,6 +210,30 @@ void Engine<R, M>::advance(std::uint32_t block) {
 }
 
 template <Refiner R, BlockMeasure<R> M>
+template <class Use>
+auto Engine<R, M>::with_snapshot(Use&& use) const {
+  const std::lock_guard one(snapshot_);
+  detail::StateKeeper keeper(blocks_.size(), blocks_.state_size());
+  std::unique_lock lock(mutex_);
+  const BlockSnapshot<R> snapshot(blocks_, &keeper);
+  const bool noisy = noise_ == Noise::present;
+  struct Watch {
+    const Engine& engine;
+    explicit Watch(const Engine& watched, detail::StateKeeper& keeper) : engine(watched) {
+      engine.blocks_.watch(&keeper);
+    }
+    ~Watch() {
+      const std::lock_guard lock(engine.mutex_);
+      engine.blocks_.watch(nullptr);
+    }
+  };
+  // Whatever happens before is under the lock still, and the watch ends under it.
+  const Watch watch(*this, keeper);
+  lock.unlock();
+  return use(grid_, snapshot, noisy);
+}
+
+template <Refiner R, BlockMeasure<R> M>
 double Engine<R, M>::progress() const {
   const std::lock_guard lock(mutex_);
   if (stop_.samples == std::numeric_limits<std::uint64_t>::max() || stop_.samples == 0) return 0;

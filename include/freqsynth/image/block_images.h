@@ -12,9 +12,11 @@
 #include <span>
 #include <vector>
 
+#include "freqsynth/basis/aligned.h"
 #include "freqsynth/basis/config.h"
 #include "freqsynth/basis/shared_list.h"
 #include "freqsynth/engine/block_grid.h"
+#include "freqsynth/engine/block_snapshot.h"
 #include "freqsynth/engine/block_store.h"
 #include "freqsynth/image/block_picture.h"
 #include "freqsynth/image/frequency_image.h"
@@ -36,22 +38,30 @@ inline void to_host_unit(std::span<float> coefficients, int exponent) {
 
 /// The fit itself (CoefficientMeaning::point_function).
 template <Refiner R>
-[[nodiscard]] FrequencyImage fit_image(const BlockGrid& grid, const BlockStore<R>& blocks) {
-  const std::size_t channels = blocks.refiner().channels();
+[[nodiscard]] FrequencyImage fit_image(const BlockGrid& grid, const BlockSnapshot<R>& blocks) {
+  const std::size_t channels = blocks.channels();
   FrequencyImage image(grid.width, grid.height, channels);
   std::vector<Gap> gaps;
+  detail::AlignedVector<float> state(blocks.state_size());
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     const std::size_t x = grid.column(b);
     const std::size_t y = grid.row(b);
     image.samples(x, y) = blocks.samples(b);
+    blocks.read(b, state.data());
     for (std::size_t c = 0; c < channels; ++c) {
       const auto coefficients = image.coefficients(x, y, c);
-      const BlockFit fit = blocks.fit_without_gaps(b, c, gaps);
+      const BlockFit fit = blocks.fit_without_gaps(b, state.data(), c, gaps);
       std::copy(fit.coefficients.begin(), fit.coefficients.end(), coefficients.begin());
       detail::to_host_unit(coefficients, blocks.exponent(c));
     }
   }
   return image;
+}
+
+/// The same of blocks that nobody changes meanwhile.
+template <Refiner R>
+[[nodiscard]] FrequencyImage fit_image(const BlockGrid& grid, const BlockStore<R>& blocks) {
+  return fit_image(grid, BlockSnapshot<R>(blocks));
 }
 
 namespace detail {
@@ -60,7 +70,8 @@ namespace detail {
 template <Refiner R>
 class ImageEvidence {
  public:
-  ImageEvidence(const BlockGrid& grid, const BlockStore<R>& blocks, const SharedInverseList& list)
+  ImageEvidence(const BlockGrid& grid, const BlockSnapshot<R>& blocks,
+                const SharedInverseList& list)
       : grid_(grid), blocks_(blocks), list_(list) {
     order_.resize(blocks.size());
     std::iota(order_.begin(), order_.end(), 0u);
@@ -78,14 +89,17 @@ class ImageEvidence {
     means_.assign(agreements_.size() * max_terms, OwnMeans::unknown);
     OwnedSamples owned;
     std::size_t samples = 0;
+    AlignedVector<float> state(blocks_.state_size());
     for (const std::uint32_t block : order_) {
+      blocks_.read(block, state.data(), 2);
       for (; samples < blocks_.samples(block); ++samples) owned.add(list_->row(samples));
       for (std::size_t c = 0; c < channels(); ++c) {
         const std::size_t at = block * channels() + c;
-        const BlockFit fit = blocks_.fit(block, c);
-        if (blocks_.has_gaps(block, c)) {
+        const BlockFit fit = blocks_.fit(block, state.data(), c);
+        const std::vector<Gap> gaps = blocks_.gaps(block, c);
+        if (!gaps.empty()) {
           agreements_[at] = PixelAgreement::none();
-          compare_without_gaps(owned, fit, blocks_.gaps(block, c), at);
+          compare_without_gaps(owned, fit, gaps, at);
         } else {
           agreements_[at] = owned.agreement(fit);
           owned.means(fit.own_sums, means_of(at));
@@ -112,7 +126,7 @@ class ImageEvidence {
   }
 
  private:
-  [[nodiscard]] std::size_t channels() const { return blocks_.refiner().channels(); }
+  [[nodiscard]] std::size_t channels() const { return blocks_.channels(); }
   [[nodiscard]] std::span<float, max_terms> means_of(std::size_t at) {
     return std::span<float, max_terms>(means_.data() + at * max_terms, max_terms);
   }
@@ -130,7 +144,7 @@ class ImageEvidence {
   }
 
   const BlockGrid& grid_;
-  const BlockStore<R>& blocks_;
+  const BlockSnapshot<R>& blocks_;
   const SharedInverseList& list_;
   std::vector<std::uint32_t> order_;        // of the blocks, those with fewer samples first
   std::vector<PixelAgreement> agreements_;  // [block][channel]
@@ -144,11 +158,11 @@ class ImageEvidence {
 /// \param features  channels without a weight that guide the smoothing of noise
 /// \throws std::invalid_argument when a setting is out of range.
 template <Refiner R>
-[[nodiscard]] FrequencyImage finished_image(const BlockGrid& grid, const BlockStore<R>& blocks,
+[[nodiscard]] FrequencyImage finished_image(const BlockGrid& grid, const BlockSnapshot<R>& blocks,
                                             const SharedInverseList& list,
                                             const FinishSettings& settings,
                                             std::span<const std::size_t> features = {}) {
-  const std::size_t channels = blocks.refiner().channels();
+  const std::size_t channels = blocks.channels();
   FrequencyImage image(grid.width, grid.height, channels, CoefficientMeaning::pixel_average);
   const bool smooth =
       settings.residuals && settings.smooth_noise && settings.noise == Noise::present;
@@ -161,7 +175,9 @@ template <Refiner R>
     image.set_non_negative(c, positive);
   }
   std::vector<Gap> gaps;
+  detail::AlignedVector<float> state(blocks.state_size());
   for (const std::uint32_t block : evidence.order()) {
+    blocks.read(block, state.data(), settings.residuals ? 2 : 1);
     const std::size_t x = grid.column(block);
     const std::size_t y = grid.row(block);
     image.samples(x, y) = blocks.samples(block);
@@ -169,12 +185,12 @@ template <Refiner R>
     for (std::size_t c = 0; c < channels; ++c) {
       const PixelEvidence known = settings.residuals ? evidence.of(block, c) : PixelEvidence();
       const std::span<float, max_terms> pixels = image.coefficients(x, y, c);
-      const BlockFit fit = blocks.fit_without_gaps(block, c, gaps);
+      const BlockFit fit = blocks.fit_without_gaps(block, state.data(), c, gaps);
       const std::vector<Gap> foreign = finisher.foreign_samples(fit, known);
       if (foreign.empty()) {
         finisher.finish(fit, pixels, known);
       } else {
-        finisher.finish(blocks.fit_without(block, c, foreign), pixels, known);
+        finisher.finish(blocks.fit_without(block, state.data(), c, foreign), pixels, known);
       }
       if (smooth) picture.add(finisher, fit, block, c, pixels);
     }
@@ -188,6 +204,15 @@ template <Refiner R>
     }
   }
   return image;
+}
+
+/// The same of blocks that nobody changes meanwhile.
+template <Refiner R>
+[[nodiscard]] FrequencyImage finished_image(const BlockGrid& grid, const BlockStore<R>& blocks,
+                                            const SharedInverseList& list,
+                                            const FinishSettings& settings,
+                                            std::span<const std::size_t> features = {}) {
+  return finished_image(grid, BlockSnapshot<R>(blocks), list, settings, features);
 }
 
 }  // namespace freqsynth
