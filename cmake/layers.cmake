@@ -33,6 +33,7 @@ set(FREQSYNTH_LAYERS
   "engine/noise_probes.h|samples that are asked for twice, so that noise is noticed|"
   "engine/channel_settings.h|what each channel of a sample is for|"
   "engine/block_grid.h|where blocks lie, and which of them share points and edges|4.3.1"
+  "engine/importance_map.h|what blocks are worth, from a function or an image|4.4"
   "engine/pixel_counts.h|samples of every pixel, for their ordinals|"
   "engine/nearest_samples.h|the sample nearest to the centre of every pixel, for ids and depth|"
   "engine/block_set.h|some of the blocks|"

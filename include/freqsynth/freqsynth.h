@@ -9,6 +9,7 @@
 #include "freqsynth/basis/dct.h"
 #include "freqsynth/basis/shared_list.h"
 #include "freqsynth/engine/executor.h"
+#include "freqsynth/engine/importance_map.h"
 #include "freqsynth/image/butterworth.h"
 #include "freqsynth/image/finish_settings.h"
 #include "freqsynth/image/frequency_image.h"

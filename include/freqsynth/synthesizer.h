@@ -17,6 +17,7 @@
 
 #include "freqsynth/basis/config.h"
 #include "freqsynth/basis/shared_list.h"
+#include "freqsynth/engine/block_grid.h"
 #include "freqsynth/engine/channel_settings.h"
 #include "freqsynth/engine/executor.h"
 #include "freqsynth/engine/noise.h"
@@ -57,8 +58,13 @@ struct SynthesisSettings {
   /// come after the others, of which there is at least one.
   std::vector<ChannelSettings> channel_settings = {};
   /// Factor on the priority of each block, row by row, 0 or in 1e-6..1e6; empty: 1. 0 leaves a
-  /// block at its first sample.
+  /// block at its first sample. See importance_map(), and Synthesizer::set_importance().
   std::vector<float> importance = {};
+  /// The part of the width x height pixels that is made, in whole blocks; empty: all of it.
+  /// Requests are those of the whole picture. For its borders' sake two blocks more on each side
+  /// are sampled, and not shown. `importance` is that of the whole picture; stop rules and `wave`
+  /// are of what is sampled.
+  PixelWindow window = {};
   /// When set, blocks are chosen by what their errors may change after quantisation, and the
   /// synthesis ends by itself when no block is above the target's tolerance.
   std::optional<QuantizationTarget> quantization = std::nullopt;
@@ -96,6 +102,11 @@ class FREQSYNTH_API Synthesizer {
   /// \return how many. Fewer, or none, when the rest of the wave is out and owed by the host, or
   ///         when a stop rule holds; stopped() tells which.
   [[nodiscard]] std::size_t request(std::span<Request> out);
+
+  /// Other factors on the priorities of blocks from the next wave on, as
+  /// SynthesisSettings::importance, so that sampling follows a mouse. What is known stays known.
+  /// \throws std::invalid_argument naming the value, and nothing changes.
+  void set_importance(std::span<const float> importance);
 
   /// Takes the values of requests in any order and split: channels() values each, those of
   /// requests[i] at [i * channels(), (i + 1) * channels()).
@@ -148,6 +159,9 @@ class FREQSYNTH_API Synthesizer {
 
   /// Values per sample. Images have those channels that are not ChannelRole::nearest.
   [[nodiscard]] std::size_t channels() const { return settings().channels; }
+  /// What the images show, in pixels of the whole picture: the blocks that
+  /// SynthesisSettings::window has pixels of.
+  [[nodiscard]] PixelWindow window() const;
   /// The settings, with the list that is used as `shared_list`.
   [[nodiscard]] const SynthesisSettings& settings() const;
   /// Counters since the engine's creation.

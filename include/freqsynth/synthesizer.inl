@@ -82,7 +82,22 @@ inline std::vector<float> channel_weights(const SynthesisSettings& settings) {
   return weights;
 }
 
+/// \param blocks  of the whole picture
+inline void check_importance(std::span<const float> importance, std::size_t blocks) {
+  if (!importance.empty() && importance.size() != blocks) {
+    refuse("importance has " + std::to_string(importance.size()) + " entries for " +
+           std::to_string(blocks) + " blocks");
+  }
+  for (const float factor : importance) {
+    // Smaller factors than that would make priorities nothing at all.
+    const bool in_range = factor >= 1e-6f && factor <= 1e6f;
+    require(is_finite(factor) && (factor == 0 || in_range), "one of importance", factor,
+            "0 or in 1e-6..1e6");
+  }
+}
+
 /// Settings that are in range, with a list.
+/// \param blocks  of the whole picture
 inline SynthesisSettings validated(SynthesisSettings settings, std::size_t blocks) {
   settings.priority.validate();
   if (settings.max_samples_per_block == 0 ||
@@ -90,16 +105,7 @@ inline SynthesisSettings validated(SynthesisSettings settings, std::size_t block
     refuse("max_samples_per_block is " + std::to_string(settings.max_samples_per_block) +
            ", not in 1.." + std::to_string(SampleSequence::max_size));
   }
-  if (!settings.importance.empty() && settings.importance.size() != blocks) {
-    refuse("importance has " + std::to_string(settings.importance.size()) + " entries for " +
-           std::to_string(blocks) + " blocks");
-  }
-  for (const float importance : settings.importance) {
-    // Smaller factors than that would make priorities nothing at all.
-    const bool in_range = importance >= 1e-6f && importance <= 1e6f;
-    require(is_finite(importance) && (importance == 0 || in_range), "one of importance", importance,
-            "0 or in 1e-6..1e6");
-  }
+  check_importance(settings.importance, blocks);
   check_channels(settings);
   if (settings.quantization) {
     settings.quantization->validate(settings.channels - nearest_channels(settings));
@@ -110,12 +116,24 @@ inline SynthesisSettings validated(SynthesisSettings settings, std::size_t block
   return settings;
 }
 
+/// The blocks that are sampled for a part of a picture.
+inline BlockGrid sampled_grid(const SynthesisSettings& settings) {
+  // What shows in a block's finished pixels lies in it, in those around it, and around these.
+  constexpr std::size_t margin = 2;
+  const BlockGrid whole = BlockGrid::of(settings.width, settings.height, settings.channels);
+  const PixelWindow& window = settings.window;
+  if (window.x == 0 && window.y == 0 && window.width == 0 && window.height == 0) return whole;
+  whole.check(window);
+  return whole.part(window, margin);
+}
+
 /// Factor on the priority of each block: its importance times its area.
-inline std::vector<float> factors_of(const BlockGrid& grid, const std::vector<float>& importance) {
+/// \param importance  of all blocks of the frame, or empty
+inline std::vector<float> factors_of(const BlockGrid& grid, std::span<const float> importance) {
   std::vector<float> factors(grid.size());
   for (std::size_t b = 0; b < factors.size(); ++b) {
     factors[b] = grid.area(b);
-    if (!importance.empty()) factors[b] *= importance[b];
+    if (!importance.empty()) factors[b] *= importance[grid.in_frame(b)];
   }
   return factors;
 }
@@ -133,8 +151,8 @@ struct Synthesizer::Implementation {
                                Engine<R, QuantizerMeasure>>;
 
   explicit Implementation(SynthesisSettings wanted)
-      : grid(BlockGrid::of(wanted.width, wanted.height, wanted.channels)),
-        settings(detail::validated(std::move(wanted), grid.size())) {
+      : grid(detail::sampled_grid(wanted)),
+        settings(detail::validated(std::move(wanted), grid.whole().size())) {
     const std::size_t blocks = grid.size();
     const std::size_t most = settings.max_samples_per_block;
     if (settings.quantization) {
@@ -156,6 +174,19 @@ struct Synthesizer::Implementation {
   template <class Use>
   auto with_engine(Use&& use) const {
     return visit(engines, use);
+  }
+
+  /// What is shown, in pixels of what is sampled.
+  [[nodiscard]] PixelWindow shown() const {
+    PixelWindow shown = grid.covered();
+    if (grid.is_part()) shown = grid.whole().part(settings.window, 0).covered();
+    shown.x -= grid.covered().x;
+    shown.y -= grid.covered().y;
+    return shown;
+  }
+  /// An image of all that is sampled as it is shown.
+  [[nodiscard]] FrequencyImage shown(FrequencyImage image) const {
+    return grid.is_part() ? image.part(shown()) : std::move(image);
   }
 
   BlockGrid grid;
@@ -219,10 +250,10 @@ FREQSYNTH_INLINE RunReport Synthesizer::run_erased(const detail::SamplerRef& sam
 }
 
 FREQSYNTH_INLINE FrequencyImage Synthesizer::image() const {
-  return implementation_->with_engine([](const auto& engine) {
+  return implementation_->shown(implementation_->with_engine([](const auto& engine) {
     return engine.with_snapshot(
         [](const BlockGrid& grid, const auto& blocks, bool) { return fit_image(grid, blocks); });
-  });
+  }));
 }
 
 FREQSYNTH_INLINE FrequencyImage Synthesizer::finished_image(const FinishSettings& settings) const {
@@ -230,13 +261,13 @@ FREQSYNTH_INLINE FrequencyImage Synthesizer::finished_image(const FinishSettings
   const std::vector<std::size_t> features =
       detail::channels_of(implementation_->settings, ChannelRole::feature);
   settings.validate();
-  return implementation_->with_engine([&](const auto& engine) {
+  return implementation_->shown(implementation_->with_engine([&](const auto& engine) {
     return engine.with_snapshot([&](const BlockGrid& grid, const auto& blocks, bool noisy) {
       FinishSettings known = settings;
       if (known.noise == Noise::automatic) known.noise = noisy ? Noise::present : Noise::none;
       return freqsynth::finished_image(grid, blocks, list, known, features);
     });
-  });
+  }));
 }
 
 FREQSYNTH_INLINE bool Synthesizer::noisy() const {
@@ -249,8 +280,32 @@ FREQSYNTH_INLINE std::vector<float> Synthesizer::nearest_pixels(std::size_t chan
   if (channel < first || channel >= all) {
     detail::refuse("channel is " + std::to_string(channel) + ", not one of role nearest");
   }
-  return implementation_->with_engine(
+  const std::vector<float> all_pixels = implementation_->with_engine(
       [&](const auto& engine) { return engine.nearest_pixels(channel - first); });
+  const PixelWindow shown = implementation_->shown();
+  std::vector<float> pixels;
+  pixels.reserve(shown.width * shown.height);
+  for (std::size_t y = 0; y < shown.height; ++y) {
+    const auto row =
+        all_pixels.begin() +
+        static_cast<std::ptrdiff_t>((shown.y + y) * implementation_->grid.width + shown.x);
+    pixels.insert(pixels.end(), row, row + static_cast<std::ptrdiff_t>(shown.width));
+  }
+  return pixels;
+}
+
+FREQSYNTH_INLINE PixelWindow Synthesizer::window() const {
+  PixelWindow window = implementation_->shown();
+  window.x += implementation_->grid.covered().x;
+  window.y += implementation_->grid.covered().y;
+  return window;
+}
+
+FREQSYNTH_INLINE void Synthesizer::set_importance(std::span<const float> importance) {
+  const BlockGrid& grid = implementation_->grid;
+  detail::check_importance(importance, grid.whole().size());
+  std::vector<float> factors = detail::factors_of(grid, importance);
+  implementation_->with_engine([&](auto& engine) { engine.set_factors(std::move(factors)); });
 }
 
 FREQSYNTH_INLINE const SynthesisSettings& Synthesizer::settings() const {

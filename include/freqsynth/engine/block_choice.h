@@ -37,6 +37,17 @@ class BlockChoice {
 
   /// Share of what is owed to every block that is owed to this one: its factor, at most 1.
   [[nodiscard]] float share(std::uint32_t block) const { return std::min(factors_[block], 1.0f); }
+  /// Those of all blocks.
+  [[nodiscard]] double shares() const {
+    double sum = 0;
+    for (std::uint32_t block = 0; block < factors_.size(); ++block) sum += double{share(block)};
+    return sum;
+  }
+  /// Other factors, one for each block. Does not allocate.
+  void use_factors(const BlockView<R>& view, std::vector<float>&& factors) {
+    factors_ = std::move(factors);
+    revise_all(view);
+  }
   /// See BlockMeasure.
   [[nodiscard]] bool in_units() const { return measure_.in_units(); }
   /// See BlockMeasure.

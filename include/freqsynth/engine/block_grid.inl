@@ -28,4 +28,14 @@ FREQSYNTH_INLINE BlockGrid BlockGrid::of(std::size_t width, std::size_t height,
   return {x, y, width, height};
 }
 
+FREQSYNTH_INLINE void BlockGrid::check(const PixelWindow& window) const {
+  const bool inside = window.x <= width && window.width <= width - window.x && window.y <= height &&
+                      window.height <= height - window.y;
+  if (inside && window.width > 0 && window.height > 0) return;
+  detail::refuse("window is " + std::to_string(window.width) + " x " +
+                 std::to_string(window.height) + " pixels at (" + std::to_string(window.x) + ", " +
+                 std::to_string(window.y) + "), not a part of " + std::to_string(width) + " x " +
+                 std::to_string(height) + " pixels");
+}
+
 }  // namespace freqsynth

@@ -61,6 +61,8 @@ class Engine {
 
   /// Sets when request() stops, from the next wave on. \throws like StopRule::validate().
   void set_stop(const StopRule& stop);
+  /// Other factors on the priorities, one for each block, from the next wave on.
+  void set_factors(std::vector<float> factors);
   /// Hands out up to out.size() positions. \throws std::bad_alloc, and nothing is handed out.
   std::size_t request(std::span<Request> out);
   /// Takes values. \throws std::invalid_argument, and none is taken.
@@ -114,6 +116,7 @@ class Engine {
   [[nodiscard]] const SequencePosition& position(std::size_t index) const {
     return blocks_.refiner().list().position(index);
   }
+  void use_factors();
   std::optional<StopReason> prepare_wave();
   std::optional<StopReason> choose_wave();
   void reserve(std::size_t most);
@@ -148,7 +151,8 @@ class Engine {
   std::uint64_t frame_;  // the seed, mixed
   std::size_t wave_size_;
   Exploration exploration_;
-  double shares_ = 0;  // of all blocks, see BlockChoice::share()
+  double shares_ = 0;                          // of all blocks, see BlockChoice::share()
+  std::optional<std::vector<float>> factors_;  // that are to be used from the next wave on
   StopRule stop_;
   SynthesisStats stats_;
   std::vector<bool> counts_;  // channels whose values can make a sample bad

@@ -29,9 +29,7 @@ Engine<R, M>::Engine(const BlockGrid& grid, BlockStore<R> blocks, M measure,
   const std::size_t most = std::max<std::size_t>(grid.size(), 1);
   wave_size_ = wave != 0 ? std::min(wave, most) : std::max<std::size_t>(most / 32, 1);
   stats_.blocks = grid.size();
-  for (std::uint32_t block = 0; block < grid.size(); ++block) {
-    shares_ += double{choice_.share(block)};
-  }
+  shares_ = choice_.shares();
   blocks_.use_units(units_.exponents(), units_.weights());
   for (const float weight : units_.weights()) counts_.push_back(weight > 0);
   const bool none = std::none_of(counts_.begin(), counts_.end(), [](bool one) { return one; });
@@ -46,6 +44,13 @@ void Engine<R, M>::set_stop(const StopRule& stop) {
   stop_ = stop;
   stop_.samples = stop.most_samples(grid_.width, grid_.height);
   patience_ = stats_.samples + unusable_at_most;
+}
+
+template <Refiner R, BlockMeasure<R> M>
+void Engine<R, M>::set_factors(std::vector<float> factors) {
+  FREQSYNTH_ASSERT(factors.size() == grid_.size());
+  const std::lock_guard lock(mutex_);
+  factors_ = std::move(factors);
 }
 
 template <Refiner R, BlockMeasure<R> M>

@@ -4,9 +4,18 @@
 
 namespace freqsynth {
 
+template <Refiner R, BlockMeasure<R> M>
+void Engine<R, M>::use_factors() {
+  if (!factors_) return;
+  choice_.use_factors(view(), std::move(*factors_));
+  factors_.reset();
+  shares_ = choice_.shares();
+}
+
 /// Chooses the next wave. \return why there is none
 template <Refiner R, BlockMeasure<R> M>
 std::optional<StopReason> Engine<R, M>::prepare_wave() {
+  use_factors();
   const std::optional<StopReason> reason = choose_wave();
   probes_.visit(stats_.samples, wave_.samples(),
                 [&](std::size_t slot) { wave_.repeat(static_cast<std::uint32_t>(slot)); });

@@ -64,12 +64,14 @@ inline void NearestSamples::add(const BlockGrid::Point& point, const float* valu
     const bool border = static_cast<double>(below) == at && below > 0;
     return Pair{border ? below - 1 : below, std::min(below, pixels - 1)};
   };
-  const Pair across = around(point.x, grid_.width);
-  const Pair down = around(point.y, grid_.height);
+  const PixelWindow covered = grid_.covered();
+  const double left = static_cast<double>(covered.x), top = static_cast<double>(covered.y);
+  const Pair across = around(point.x - left, grid_.width);
+  const Pair down = around(point.y - top, grid_.height);
   for (std::size_t y = down.first; y <= down.last; ++y) {
     for (std::size_t x = across.first; x <= across.last; ++x) {
-      const double right = point.x - (static_cast<double>(x) + 0.5);
-      const double below = point.y - (static_cast<double>(y) + 0.5);
+      const double right = point.x - (left + static_cast<double>(x) + 0.5);
+      const double below = point.y - (top + static_cast<double>(y) + 0.5);
       const auto distance = static_cast<float>(right * right + below * below);
       Kept* pixel = kept_.data() + (y * grid_.width + x) * channels_;
       for (std::size_t c = 0; c < channels_; ++c) {

@@ -71,6 +71,10 @@ class FrequencyImage {
   /// What the coefficients stand for.
   [[nodiscard]] CoefficientMeaning meaning() const { return meaning_; }
 
+  /// The blocks that a part of the image has pixels of, as an image of their own.
+  /// \throws std::invalid_argument when the part is empty or does not lie within the image.
+  [[nodiscard]] FREQSYNTH_API FrequencyImage part(const PixelWindow& window) const;
+
   /// Whether a channel has no values below zero: all pixels that are made of it are at least 0.
   [[nodiscard]] bool non_negative(std::size_t channel) const {
     FREQSYNTH_ASSERT(channel < size_.channels);

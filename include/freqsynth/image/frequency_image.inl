@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <stdexcept>
 #include <utility>
@@ -96,6 +97,25 @@ FREQSYNTH_INLINE FrequencyImage FrequencyImage::load(ByteSource source) {
   FrequencyImage image;
   detail::StateReader reader(source, detail::image_kind);
   archive(reader, image);
+  return image;
+}
+
+FREQSYNTH_INLINE FrequencyImage FrequencyImage::part(const PixelWindow& window) const {
+  const BlockGrid all = BlockGrid::of(width(), height(), channels());
+  all.check(window);
+  const BlockGrid some = all.part(window, 0);
+  FrequencyImage image(some.width, some.height, channels(), meaning_);
+  image.non_negative_ = non_negative_;
+  for (std::size_t y = 0; y < some.blocks_y; ++y) {
+    for (std::size_t x = 0; x < some.blocks_x; ++x) {
+      const std::size_t u = x + some.frame.left, v = y + some.frame.top;
+      image.samples(x, y) = samples(u, v);
+      for (std::size_t c = 0; c < channels(); ++c) {
+        const auto from = coefficients(u, v, c);
+        std::copy(from.begin(), from.end(), image.coefficients(x, y, c).begin());
+      }
+    }
+  }
   return image;
 }
 

@@ -1,0 +1,2 @@
+// SPDX-License-Identifier: MIT
+#include "freqsynth/engine/importance_map.inl"
