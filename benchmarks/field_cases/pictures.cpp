@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "freqsynth_render/picture.h"
+#include "common/picture.h"
 #include "measure.h"
 #include "named_fields.h"
 #include "scenes/scene.h"

@@ -14,11 +14,11 @@
 #include <string>
 #include <vector>
 
+#include "common/option_values.h"
+#include "common/picture.h"
+#include "common/progress_bar.h"
 #include "freqsynth/engine/executor.h"
 #include "freqsynth/engine/thread_pool.h"
-#include "freqsynth_render/option_values.h"
-#include "freqsynth_render/picture.h"
-#include "freqsynth_render/progress_bar.h"
 #include "options.h"
 #include "quality/methods.h"
 #include "quality/metrics.h"

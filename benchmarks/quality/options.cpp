@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "freqsynth_render/option_values.h"
+#include "common/option_values.h"
 #include "quality/metrics.h"
 
 namespace {

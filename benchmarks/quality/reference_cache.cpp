@@ -10,7 +10,7 @@
 #include <filesystem>
 #include <string_view>
 
-#include "freqsynth_render/picture.h"
+#include "common/picture.h"
 #include "quality/results.h"
 
 namespace quality {

@@ -15,9 +15,9 @@
 #include <utility>
 #include <vector>
 
+#include "common/option_values.h"
 #include "freqsynth/engine/block_grid.h"
 #include "freqsynth/engine/thread_pool.h"
-#include "freqsynth_render/option_values.h"
 #include "quality/tune_measure.h"
 #include "quality/tune_parameters.h"
 

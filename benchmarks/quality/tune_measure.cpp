@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "common/progress_bar.h"
 #include "freqsynth/freqsynth.h"
-#include "freqsynth_render/progress_bar.h"
 #include "quality/methods.h"
 #include "quality/metrics.h"
 #include "quality/reference.h"

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "../freqsynth_render/picture.h"
+#include "common/picture.h"
 #include "freqsynth/image/frequency_image.h"
 
 /// Reads a picture as finished pixels with the signal of JPEG: one channel Y, or Y, Cb and Cr, of

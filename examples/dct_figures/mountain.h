@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "../freqsynth_render/picture.h"
+#include "common/picture.h"
 
 /// A fractal: octaves of noise, each of twice the frequency and `gain` times the amplitude.
 struct Fractal {

@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "common/picture.h"
 #include "freqsynth/jpeg/display_encoding.h"
-#include "picture.h"
 #ifdef FREQSYNTH_HAS_JPEG
 #include "freqsynth/jpeg/jpeg_file.h"
 #endif

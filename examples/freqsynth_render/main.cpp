@@ -10,13 +10,13 @@
 #include <stdexcept>
 #include <string>
 
+#include "common/interrupt.h"
+#include "common/picture.h"
+#include "common/progress_bar.h"
 #include "direct.h"
 #include "freqsynth/engine/thread_pool.h"
 #include "freqsynth/freqsynth.h"
-#include "interrupt.h"
 #include "options.h"
-#include "picture.h"
-#include "progress_bar.h"
 #include "reference.h"
 #include "run_stats.h"
 #include "scenes/scene.h"

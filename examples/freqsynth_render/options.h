@@ -6,11 +6,11 @@
 #include <optional>
 #include <string>
 
+#include "common/option_values.h"
 #include "freqsynth/engine/priority.h"
 #include "freqsynth/image/butterworth.h"
 #include "freqsynth/image/reconstructor.h"
 #include "freqsynth/jpeg/quantization.h"
-#include "option_values.h"
 
 /// In what the values of a pixel are averaged.
 enum class Averaging : std::uint8_t {

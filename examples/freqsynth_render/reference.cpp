@@ -6,9 +6,9 @@
 #include <cmath>
 #include <random>
 
+#include "common/sampling.h"
 #include "freqsynth/engine/thread_pool.h"
 #include "freqsynth/jpeg/display_encoding.h"
-#include "sampling.h"
 #include "scenes/random.h"
 
 namespace {

@@ -6,10 +6,10 @@
 #include <functional>
 #include <utility>
 
+#include "common/picture.h"
 #include "freqsynth/engine/executor.h"
 #include "freqsynth/engine/thread_pool.h"
 #include "options.h"
-#include "picture.h"
 #include "scenes/scene.h"
 
 /// The yardstick: `samples` jittered samples in each pixel, averaged. They are stratified in a grid

@@ -6,7 +6,7 @@
 #include <array>
 #include <cstdio>
 
-#include "picture.h"
+#include "common/picture.h"
 
 namespace {
 

@@ -10,15 +10,15 @@
 #include <string>
 #include <vector>
 
+#include "common/interrupt.h"
+#include "common/picture.h"
+#include "common/progress_bar.h"
+#include "common/sampling.h"
 #include "direct.h"
 #include "freqsynth/basis/sample_sequence.h"
 #include "freqsynth/engine/thread_pool.h"
 #include "freqsynth/freqsynth.h"
-#include "interrupt.h"
-#include "picture.h"
-#include "progress_bar.h"
 #include "run_stats.h"
-#include "sampling.h"
 
 namespace {
 

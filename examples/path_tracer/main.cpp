@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "freqsynth_render/option_values.h"
+#include "common/option_values.h"
 #include "output.h"
 #include "rendering.h"
 

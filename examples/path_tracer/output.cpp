@@ -7,8 +7,8 @@
 
 #include <stdexcept>
 
-#include "freqsynth_render/output_file.h"
-#include "freqsynth_render/picture.h"
+#include "common/output_file.h"
+#include "common/picture.h"
 
 namespace path_tracer {
 namespace {
