@@ -112,6 +112,19 @@ constexpr double amplitude_of_coefficient(std::size_t term) {
   return 0.25 * detail::kappa(f.u) * detail::kappa(f.v);
 }
 
+namespace detail {
+
+/// amplitude_of_coefficient() of all terms.
+inline constexpr std::array<float, max_terms> coefficient_amplitudes = [] {
+  std::array<float, max_terms> amplitudes{};
+  for (std::size_t i = 0; i < max_terms; ++i) {
+    amplitudes[i] = static_cast<float>(amplitude_of_coefficient(i));
+  }
+  return amplitudes;
+}();
+
+}  // namespace detail
+
 }  // namespace freqsynth
 
 #if defined(FREQSYNTH_HEADER_ONLY)

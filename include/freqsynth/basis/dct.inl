@@ -34,16 +34,20 @@ struct PixelCosines {
   AlignedBlock by_frequency;                // [u][x]
   AlignedBlock by_pixel;                    // [y][v]
   std::array<float, max_terms> amplitudes;  // of a coefficient, zig-zag
+  // The same cosines, [x][u], and amplitudes, [v][u], for the way there.
+  AlignedArray<double, max_terms> forward, scales;
 
   PixelCosines() {
     for (std::size_t i = 0; i < max_terms; ++i) {
       amplitudes[i] = static_cast<float>(amplitude_of_coefficient(i));
+      scales[zigzag_to_row_major[i]] = amplitude_of_coefficient(i);
     }
     for (std::size_t x = 0; x < block_size; ++x) {
       const auto values = cosines((static_cast<double>(x) + 0.5) / block_size);
       for (std::size_t u = 0; u < block_size; ++u) {
         by_frequency[u * block_size + x] = by_pixel[x * block_size + u] =
             static_cast<float>(values[u]);
+        forward[x * block_size + u] = double{by_pixel[x * block_size + u]};
       }
     }
   }
@@ -74,23 +78,9 @@ FREQSYNTH_INLINE double pixel_mean_of_term(std::size_t term) {
 FREQSYNTH_INLINE void forward_dct(std::span<const float, max_terms> pixels,
                                   std::span<float, max_terms> coefficients) {
   const detail::PixelCosines& table = detail::pixel_cosines();
-  double rows[block_size][block_size] = {};  // [y][u]
-  for (std::size_t y = 0; y < block_size; ++y) {
-    for (std::size_t u = 0; u < block_size; ++u) {
-      for (std::size_t x = 0; x < block_size; ++x) {
-        rows[y][u] +=
-            double{pixels[y * block_size + x]} * double{table.by_frequency[u * block_size + x]};
-      }
-    }
-  }
-  for (std::size_t i = 0; i < max_terms; ++i) {
-    const Frequency f = frequency_of_term(i);
-    double sum = 0;
-    for (std::size_t y = 0; y < block_size; ++y) {
-      sum += rows[y][f.u] * double{table.by_pixel[y * block_size + f.v]};
-    }
-    coefficients[i] = static_cast<float>(amplitude_of_coefficient(i) * sum);
-  }
+  detail::AlignedBlock out;
+  detail::forward_transform(pixels.data(), table.forward.data(), table.scales.data(), out.data());
+  for (std::size_t i = 0; i < max_terms; ++i) coefficients[i] = out[detail::zigzag_to_row_major[i]];
 }
 
 FREQSYNTH_INLINE void inverse_dct(std::span<const float, max_terms> coefficients,

@@ -91,6 +91,53 @@ using EvaluateSeparable = void(const float* amplitudes, const float* wx, std::si
                                std::size_t columns, const float* wy, std::size_t rows, float* out,
                                std::size_t out_stride);
 
+/// A number for each pixel of a block, with room around each row.
+struct alignas(64) PaddedBlock {
+  /// Greater than any number of a pixel.
+  static constexpr float none = 3.402823466e+38f;
+  static constexpr std::size_t first = 8;    ///< place of the first pixel
+  static constexpr std::size_t stride = 16;  ///< from a row to the next
+
+  float values[first + block_size * stride];  ///< in each row pixels 0 .. 7, and on both sides one
+};
+
+/// Eq. 1: pixels, row by row, to coefficients, row-major (v, u), in double.
+/// \param cosines  cos(pi u (x + 1/2) / 8), row-major (x, u), aligned to 64 bytes like `scales`
+/// \param scales   factor of each coefficient, row-major (v, u)
+using ForwardTransform = void(const float* pixels, const double* cosines, const double* scales,
+                              float* out);
+
+// What PixelFinisher does with 64 numbers; all but coefficients and variances are aligned to 32
+// bytes.
+
+/// out = coefficient * filter * max(0, 1 - scale * variance / coefficient^2).
+using ShrinkTerms = void(const float* coefficients, const float* filter, const float* variances,
+                         float scale, float* out);
+/// pixel += mean * weight / (weight + doubt), where there is weight.
+using AddMeans = void(const float* means, const float* weights, float doubt, float* pixels);
+/// sum * share where share is not 0. Elsewhere, and around: greater than any number in `low`, less
+/// than any in `high`.
+using KnownMeans = void(const float* sums, const float* shares, PaddedBlock& low,
+                        PaddedBlock& high);
+/// Writes the least of `low` and the greatest of `high`.
+using LeastAndMost = void(const PaddedBlock& low, const PaddedBlock& high, float* out);
+/// The value that `rank` of the 64 are less than, or equal to it and before it; between least and
+/// most.
+using ValueOfRank = float(const PaddedBlock& values, std::size_t rank, float least, float most);
+/// Writes for each pixel the least of `low` and the greatest of `high` among it and its neighbours.
+/// \return whether any pixel lies outside
+using ExtremesAround = bool(const PaddedBlock& low, const PaddedBlock& high, const float* pixels,
+                            float* least, float* most);
+/// Clamps pixels that lie outside to that range, widened on each side by `slack` times the distance
+/// from the median; where `counts`, how many are known of each 3 x 3, is less than 4, to `whole`.
+using ClampAround = void(const PaddedBlock& low, const float* least, const float* most,
+                         const float* counts, float slack, const float* whole, float* pixels);
+/// See OwnMeans::hold(). `means` are 10 rows.
+/// \param alike     greatest difference of means that are the same
+/// \param most_off  greatest difference of a pixel that is held if not all around are the same
+using HoldFlat = void(const float* means, std::size_t stride, float alike, float most_off,
+                      float* pixels);
+
 /// One version of all kernels.
 struct Kernels {
   const char* name;  ///< "plain", "avx2" or "avx512"
@@ -100,6 +147,15 @@ struct Kernels {
   Multiply* multiply;
   ResidualMeans* residual_means;
   EvaluateSeparable* evaluate_separable;
+  ForwardTransform* forward_transform;
+  ShrinkTerms* shrink_terms;
+  AddMeans* add_means;
+  KnownMeans* known_means;
+  LeastAndMost* least_and_most;
+  ValueOfRank* value_of_rank;
+  ExtremesAround* extremes_around;
+  ClampAround* clamp_around;
+  HoldFlat* hold_flat;
 };
 
 /// The versions that this processor can run, from the plain one, which all can, to the best.
@@ -114,6 +170,15 @@ FREQSYNTH_API AddOuterProduct add_outer_product;
 FREQSYNTH_API Multiply multiply;
 FREQSYNTH_API ResidualMeans residual_means;
 FREQSYNTH_API EvaluateSeparable evaluate_separable;
+FREQSYNTH_API ForwardTransform forward_transform;
+FREQSYNTH_API ShrinkTerms shrink_terms;
+FREQSYNTH_API AddMeans add_means;
+FREQSYNTH_API KnownMeans known_means;
+FREQSYNTH_API LeastAndMost least_and_most;
+FREQSYNTH_API ValueOfRank value_of_rank;
+FREQSYNTH_API ExtremesAround extremes_around;
+FREQSYNTH_API ClampAround clamp_around;
+FREQSYNTH_API HoldFlat hold_flat;
 
 }  // namespace freqsynth::detail
 

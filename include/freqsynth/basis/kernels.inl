@@ -58,6 +58,8 @@
 #define FREQSYNTH_KERNEL_BYTES 64
 #define FREQSYNTH_KERNEL_TARGET __attribute__((target("avx512f,avx512dq,avx512vl")))
 #include "freqsynth/basis/kernels_pack.inl"
+#include "freqsynth/basis/kernels_picture.inl"
+#include "freqsynth/basis/kernels_ranges.inl"
 #include "freqsynth/basis/kernels_update.inl"
 #undef FREQSYNTH_KERNEL_SET
 #undef FREQSYNTH_KERNEL_BYTES
@@ -72,13 +74,41 @@
 namespace freqsynth::detail {
 
 inline constexpr Kernels plain_kernels = {
-    "plain",          &plain::absorb_sample,  &plain::rank_one_update,    &plain::add_outer_product,
-    &plain::multiply, &plain::residual_means, &plain::evaluate_separable,
+    "plain",
+    &plain::absorb_sample,
+    &plain::rank_one_update,
+    &plain::add_outer_product,
+    &plain::multiply,
+    &plain::residual_means,
+    &plain::evaluate_separable,
+    &plain::forward_transform,
+    &plain::shrink_terms,
+    &plain::add_means,
+    &plain::known_means,
+    &plain::least_and_most,
+    &plain::value_of_rank,
+    &plain::extremes_around,
+    &plain::clamp_around,
+    &plain::hold_flat,
 };
 #if defined(FREQSYNTH_KERNELS_AVX2)
 inline constexpr Kernels avx2_kernels = {
-    "avx2",          &avx2::absorb_sample,  &avx2::rank_one_update,    &avx2::add_outer_product,
-    &avx2::multiply, &avx2::residual_means, &avx2::evaluate_separable,
+    "avx2",
+    &avx2::absorb_sample,
+    &avx2::rank_one_update,
+    &avx2::add_outer_product,
+    &avx2::multiply,
+    &avx2::residual_means,
+    &avx2::evaluate_separable,
+    &avx2::forward_transform,
+    &avx2::shrink_terms,
+    &avx2::add_means,
+    &avx2::known_means,
+    &avx2::least_and_most,
+    &avx2::value_of_rank,
+    &avx2::extremes_around,
+    &avx2::clamp_around,
+    &avx2::hold_flat,
 };
 #endif
 #if defined(FREQSYNTH_KERNELS_AVX512)
@@ -87,6 +117,17 @@ inline constexpr Kernels avx512_kernels = [] {
   Kernels kernels = avx2_kernels;
   kernels.name = "avx512";
   kernels.rank_one_update = &avx512::rank_one_update;
+  kernels.residual_means = &avx512::residual_means;
+  kernels.evaluate_separable = &avx512::evaluate_separable;
+  kernels.forward_transform = &avx512::forward_transform;
+  kernels.shrink_terms = &avx512::shrink_terms;
+  kernels.add_means = &avx512::add_means;
+  kernels.known_means = &avx512::known_means;
+  kernels.least_and_most = &avx512::least_and_most;
+  kernels.value_of_rank = &avx512::value_of_rank;
+  kernels.extremes_around = &avx512::extremes_around;
+  kernels.clamp_around = &avx512::clamp_around;
+  kernels.hold_flat = &avx512::hold_flat;
   return kernels;
 }();
 #endif
@@ -134,6 +175,15 @@ inline constexpr Kernels undecided_kernels = {
     &Undecided<&Kernels::multiply>::call,
     &Undecided<&Kernels::residual_means>::call,
     &Undecided<&Kernels::evaluate_separable>::call,
+    &Undecided<&Kernels::forward_transform>::call,
+    &Undecided<&Kernels::shrink_terms>::call,
+    &Undecided<&Kernels::add_means>::call,
+    &Undecided<&Kernels::known_means>::call,
+    &Undecided<&Kernels::least_and_most>::call,
+    &Undecided<&Kernels::value_of_rank>::call,
+    &Undecided<&Kernels::extremes_around>::call,
+    &Undecided<&Kernels::clamp_around>::call,
+    &Undecided<&Kernels::hold_flat>::call,
 };
 
 inline constinit std::atomic<const Kernels*> chosen{&undecided_kernels};
@@ -181,6 +231,51 @@ FREQSYNTH_INLINE void evaluate_separable(const float* amplitudes, const float* w
                                          const float* wy, std::size_t rows, float* out,
                                          std::size_t out_stride) {
   kernels().evaluate_separable(amplitudes, wx, wx_stride, columns, wy, rows, out, out_stride);
+}
+
+FREQSYNTH_INLINE void forward_transform(const float* pixels, const double* cosines,
+                                        const double* scales, float* out) {
+  kernels().forward_transform(pixels, cosines, scales, out);
+}
+
+FREQSYNTH_INLINE void shrink_terms(const float* coefficients, const float* filter,
+                                   const float* variances, float scale, float* out) {
+  kernels().shrink_terms(coefficients, filter, variances, scale, out);
+}
+
+FREQSYNTH_INLINE void add_means(const float* means, const float* weights, float doubt,
+                                float* pixels) {
+  kernels().add_means(means, weights, doubt, pixels);
+}
+
+FREQSYNTH_INLINE void known_means(const float* sums, const float* shares, PaddedBlock& low,
+                                  PaddedBlock& high) {
+  kernels().known_means(sums, shares, low, high);
+}
+
+FREQSYNTH_INLINE void least_and_most(const PaddedBlock& low, const PaddedBlock& high, float* out) {
+  kernels().least_and_most(low, high, out);
+}
+
+FREQSYNTH_INLINE float value_of_rank(const PaddedBlock& values, std::size_t rank, float least,
+                                     float most) {
+  return kernels().value_of_rank(values, rank, least, most);
+}
+
+FREQSYNTH_INLINE bool extremes_around(const PaddedBlock& low, const PaddedBlock& high,
+                                      const float* pixels, float* least, float* most) {
+  return kernels().extremes_around(low, high, pixels, least, most);
+}
+
+FREQSYNTH_INLINE void clamp_around(const PaddedBlock& low, const float* least, const float* most,
+                                   const float* counts, float slack, const float* whole,
+                                   float* pixels) {
+  kernels().clamp_around(low, least, most, counts, slack, whole, pixels);
+}
+
+FREQSYNTH_INLINE void hold_flat(const float* means, std::size_t stride, float alike, float most_off,
+                                float* pixels) {
+  kernels().hold_flat(means, stride, alike, most_off, pixels);
 }
 
 }  // namespace freqsynth::detail

@@ -7,6 +7,8 @@
 // instruction set. All versions add in the same order, whatever the size of their registers.
 
 #include "freqsynth/basis/kernels_pack.inl"
+#include "freqsynth/basis/kernels_picture.inl"
+#include "freqsynth/basis/kernels_ranges.inl"
 #include "freqsynth/basis/kernels_update.inl"
 
 namespace freqsynth::detail::FREQSYNTH_KERNEL_SET {
@@ -115,45 +117,6 @@ void multiply(const double* matrix, const double* x, std::size_t terms, double* 
       alignas(32) double last[4];
       products.store(last);
       for (std::size_t k = 0; i + k < terms; ++k) out[i + k] = last[k];
-    }
-  }
-}
-
-FREQSYNTH_KERNEL
-void residual_means(const float* matrix, const float* amplitudes, const float* sums,
-                    const float* shares, float* out) {
-  FREQSYNTH_KERNEL_BEGIN
-  for (std::size_t j = 0; j < max_terms; ++j) {
-    const float* row = matrix + j * max_terms;
-    Float8 even = {}, odd = {};
-    for (std::size_t i = 0; i < max_terms; i += 16) {
-      even += Float8::load(row + i) * Float8::load(amplitudes + i);
-      odd += Float8::load(row + i + 8) * Float8::load(amplitudes + i + 8);
-    }
-    out[j] = (sums[j] - sum_of(even + odd)) * shares[j];
-  }
-}
-
-FREQSYNTH_KERNEL
-void evaluate_separable(const float* amplitudes, const float* wx, std::size_t wx_stride,
-                        std::size_t columns, const float* wy, std::size_t rows, float* out,
-                        std::size_t out_stride) {
-  FREQSYNTH_KERNEL_BEGIN
-  for (std::size_t c = 0; c < columns; c += 8) {
-    Float8 partial[block_size];  // sum over u, for each v
-    for (std::size_t v = 0; v < block_size; ++v) {
-      const float* amplitude = amplitudes + v * block_size;
-      Float8 sum = amplitude[0] * Float8::load(wx + c);
-      for (std::size_t u = 1; u < block_size; ++u) {
-        sum += amplitude[u] * Float8::load(wx + u * wx_stride + c);
-      }
-      partial[v] = sum;
-    }
-    for (std::size_t r = 0; r < rows; ++r) {
-      const float* weight = wy + r * block_size;
-      Float8 sum = weight[0] * partial[0];
-      for (std::size_t v = 1; v < block_size; ++v) sum += weight[v] * partial[v];
-      sum.store(out + r * out_stride + c);
     }
   }
 }

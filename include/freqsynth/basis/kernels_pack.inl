@@ -147,6 +147,48 @@ FREQSYNTH_KERNEL_INLINE void copy_padded(const T* from, std::size_t count, T* to
   if (i % 8 != 0) Pack<T, 4>{}.store(to + i);
 }
 
+/// The lesser and the greater of two, lane by lane; b where they are equal.
+template <class T, std::size_t lanes>
+FREQSYNTH_KERNEL_INLINE Pack<T, lanes> lesser(const Pack<T, lanes>& a, const Pack<T, lanes>& b) {
+  Pack<T, lanes> result;
+  for (std::size_t k = 0; k < Pack<T, lanes>::count; ++k) {
+    result.part[k] = a.part[k] < b.part[k] ? a.part[k] : b.part[k];
+  }
+  return result;
+}
+template <class T, std::size_t lanes>
+FREQSYNTH_KERNEL_INLINE Pack<T, lanes> greater(const Pack<T, lanes>& a, const Pack<T, lanes>& b) {
+  Pack<T, lanes> result;
+  for (std::size_t k = 0; k < Pack<T, lanes>::count; ++k) {
+    result.part[k] = a.part[k] > b.part[k] ? a.part[k] : b.part[k];
+  }
+  return result;
+}
+/// a < b ? yes : no, lane by lane.
+template <class T, std::size_t lanes>
+FREQSYNTH_KERNEL_INLINE Pack<T, lanes> if_less(const Pack<T, lanes>& a, const Pack<T, lanes>& b,
+                                               const Pack<T, lanes>& yes,
+                                               const Pack<T, lanes>& no) {
+  Pack<T, lanes> result;
+  for (std::size_t k = 0; k < Pack<T, lanes>::count; ++k) {
+    result.part[k] = a.part[k] < b.part[k] ? yes.part[k] : no.part[k];
+  }
+  return result;
+}
+template <class T, std::size_t lanes>
+FREQSYNTH_KERNEL_INLINE Pack<T, lanes> quotient(const Pack<T, lanes>& a, const Pack<T, lanes>& b) {
+  Pack<T, lanes> result;
+  for (std::size_t k = 0; k < Pack<T, lanes>::count; ++k) result.part[k] = a.part[k] / b.part[k];
+  return result;
+}
+template <class P, class T>
+FREQSYNTH_KERNEL_INLINE P all_lanes(T value) {
+  P result;
+  for (std::size_t k = 0; k < P::count; ++k) {
+    result.part[k] = value - typename P::Register{};
+  }
+  return result;
+}
 using Float8 = Pack<float, 8>;
 using Double4 = Pack<double, 4>;
 using Double8 = Pack<double, 8>;

@@ -14,9 +14,11 @@ namespace detail {
 
 /// Makes pixels below zero zero, and the others smaller in proportion, so that their sum stays.
 inline void lift_negative(std::span<float, max_terms> pixels) {
+  int any = 0;
+  for (const float pixel : pixels) any |= pixel < 0 ? 1 : 0;
+  if (any == 0) return;
   float above = 0, below = 0;
   for (const float pixel : pixels) (pixel > 0 ? above : below) += pixel;
-  if (below == 0) return;
   const float share = above > -below ? (above + below) / above : 0;
   for (float& pixel : pixels) pixel = std::max(pixel, 0.0f) * share;
 }

@@ -22,6 +22,7 @@
 
 #include "freqsynth/basis/aligned.h"
 #include "freqsynth/basis/config.h"
+#include "freqsynth/basis/kernels.h"
 #include "freqsynth/basis/shared_list.h"
 #include "freqsynth/image/finish_settings.h"
 #include "freqsynth/image/own_means.h"
@@ -70,21 +71,32 @@ class FREQSYNTH_API PixelFinisher {
                            const PixelEvidence& evidence) const;
   void leave_out(std::span<const Gap> gaps, std::span<float, max_terms> weights,
                  std::span<float, max_terms> sums) const;
+  void weigh();
+  void add_terms(const detail::SampleRow& row, float sign);
   void filter(const BlockFit& fit, std::span<float, max_terms> filtered) const;
   double measured_doubt(const BlockFit& fit, std::span<const float, max_terms> filtered,
                         const detail::AlignedBlock& means) const;
+  /// What samples have shown of pixels: PaddedBlock::none, or less than anything, where nothing.
+  struct Means {
+    detail::PaddedBlock low, high;
+    detail::AlignedBlock counts;  ///< known ones among each pixel and those around it
+  };
+  std::size_t flat_means(const BlockFit& fit, std::span<float, max_terms> pixels,
+                         Means& means) const;
   void bound(const BlockFit& fit, std::span<float, max_terms> pixels,
              const PixelEvidence& evidence) const;
 
   SharedInverseList list_;
   FinishSettings settings_;
   std::size_t samples_ = 0;
-  std::array<float, max_terms> box_;      // mean over a pixel of each term, relative to its centre
-  std::array<float, max_terms> filter_;   // Butterworth factors
-  std::array<float, max_terms> weights_;  // samples of each pixel
+  std::array<float, max_terms> box_;     // mean over a pixel of each term, relative to its centre
+  std::array<float, max_terms> filter_;  // Butterworth factors
   OwnedSamples owned_;
   SharedBorder border_;
+  detail::AlignedBlock weights_;          // samples of each pixel
   detail::AlignedBlock inverse_weights_;  // 0 without samples
+  detail::AlignedBlock counts_;           // pixels with samples among each and those around it
+  std::size_t sampled_ = 0;               // pixels with samples
   // [pixel][row-major term]: weighted sum of the term over the pixel's samples
   detail::AlignedVector<float> sums_;
 };

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "freqsynth/basis/check.h"
@@ -21,40 +20,20 @@ namespace detail {
 /// rounding.
 inline constexpr float least_weight = 1e-3f;
 
-/// Of each pixel the least and the greatest of the values in it and in those around it.
-struct Extremes {
-  std::array<float, max_terms> least, most;
-};
-
-/// Values count where there are some.
-inline Extremes extremes_around(const std::array<float, max_terms>& values,
-                                const std::array<bool, max_terms>& known) {
+/// How many of each pixel and of those around it have a weight.
+inline void count_around(const AlignedBlock& weights, AlignedBlock& counts) {
   constexpr std::size_t side = block_size;
-  constexpr float none = std::numeric_limits<float>::max();
-  Extremes lines, around;
-  for (std::size_t y = 0; y < max_terms; y += side) {
-    std::array<float, side + 2> low, high;
-    low.front() = low.back() = none;
-    high.front() = high.back() = -none;
-    for (std::size_t x = 0; x < side; ++x) {
-      low[x + 1] = known[y + x] ? values[y + x] : none;
-      high[x + 1] = known[y + x] ? values[y + x] : -none;
+  std::array<float, max_terms> rows;  // of each pixel and those beside it
+  const auto add_line = [](const float* from, std::size_t step, float* to) {
+    for (std::size_t i = 0; i < side; ++i) {
+      to[i * step] = from[i * step] + (i > 0 ? from[(i - 1) * step] : 0) +
+                     (i + 1 < side ? from[(i + 1) * step] : 0);
     }
-    for (std::size_t x = 0; x < side; ++x) {
-      lines.least[y + x] = std::min(std::min(low[x], low[x + 1]), low[x + 2]);
-      lines.most[y + x] = std::max(std::max(high[x], high[x + 1]), high[x + 2]);
-    }
-  }
-  for (std::size_t y = 0; y < max_terms; y += side) {
-    const std::size_t above = y > 0 ? y - side : 0;
-    const std::size_t below = std::min(y + side, max_terms - side);
-    for (std::size_t x = 0; x < side; ++x) {
-      const auto& [least, most] = lines;
-      around.least[y + x] = std::min(std::min(least[above + x], least[y + x]), least[below + x]);
-      around.most[y + x] = std::max(std::max(most[above + x], most[y + x]), most[below + x]);
-    }
-  }
-  return around;
+  };
+  std::array<float, max_terms> known;
+  for (std::size_t i = 0; i < max_terms; ++i) known[i] = weights[i] > 0 ? 1 : 0;
+  for (std::size_t y = 0; y < side; ++y) add_line(&known[y * side], 1, &rows[y * side]);
+  for (std::size_t x = 0; x < side; ++x) add_line(&rows[x], side, &counts[x]);
 }
 
 }  // namespace detail
@@ -66,8 +45,18 @@ FREQSYNTH_INLINE PixelFinisher::PixelFinisher(SharedInverseList list,
   if (!list_) detail::refuse("there is no inverse list");
   for (std::size_t i = 0; i < max_terms; ++i) box_[i] = static_cast<float>(pixel_mean_of_term(i));
   weights_.fill(0);
-  inverse_weights_.fill(0);
+  weigh();
   filter_ = butterworth_factors(settings_.butterworth, 0);
+}
+
+/// After the weights have changed.
+FREQSYNTH_INLINE void PixelFinisher::weigh() {
+  sampled_ = 0;
+  for (std::size_t pixel = 0; pixel < max_terms; ++pixel) {
+    sampled_ += weights_[pixel] > 0 ? 1 : 0;
+    inverse_weights_[pixel] = weights_[pixel] > 0 ? 1 / weights_[pixel] : 0;
+  }
+  detail::count_around(weights_, counts_);
 }
 
 FREQSYNTH_INLINE void PixelFinisher::advance(std::size_t samples) {
@@ -77,34 +66,38 @@ FREQSYNTH_INLINE void PixelFinisher::advance(std::size_t samples) {
     const detail::SampleRow& row = list_->row(samples_);
     owned_.add(row);
     border_.add(list_->position(samples_), row);
+    add_terms(row, 1);
     for (std::size_t p = 0; p < row.pixel_count; ++p) {
-      const std::size_t pixel = row.pixels[p];
-      weights_[pixel] += row.pixel_weights[p];
-      float* sums = sums_.data() + pixel * max_terms;
-      for (std::size_t i = 0; i < max_terms; ++i) {
-        sums[detail::zigzag_to_row_major[i]] += row.pixel_weights[p] * (row.fit[i] + row.rest[i]);
-      }
+      weights_[row.pixels[p]] += row.pixel_weights[p];
     }
   }
   filter_ = butterworth_factors(settings_.butterworth, samples);
-  for (std::size_t pixel = 0; pixel < max_terms; ++pixel) {
-    inverse_weights_[pixel] = weights_[pixel] > 0 ? 1 / weights_[pixel] : 0;
+  weigh();
+}
+
+/// Adds the terms of a sample to the sums of its pixels, `sign` times.
+FREQSYNTH_INLINE void PixelFinisher::add_terms(const detail::SampleRow& row, float sign) {
+  std::array<float, max_terms> terms;
+  for (std::size_t i = 0; i < max_terms; ++i) {
+    terms[detail::zigzag_to_row_major[i]] = row.fit[i] + row.rest[i];
+  }
+  for (std::size_t p = 0; p < row.pixel_count; ++p) {
+    float* sums = sums_.data() + row.pixels[p] * max_terms;
+    const float weight = sign * row.pixel_weights[p];
+    for (std::size_t i = 0; i < max_terms; ++i) sums[i] += weight * terms[i];
   }
 }
 
 /// The filtered fit.
 FREQSYNTH_INLINE void PixelFinisher::filter(const BlockFit& fit,
                                             std::span<float, max_terms> filtered) const {
-  const std::array<float, max_terms>& coefficients = fit.coefficients;
-  for (std::size_t i = 0; i < max_terms; ++i) filtered[i] = coefficients[i] * filter_[i];
-  if (!settings_.residuals || samples_ == 0) return;
-  const std::span<const float, max_terms> variances = list_->variances(samples_ - 1);
-  const float scale = static_cast<float>(settings_.shrinkage) * fit.residual;
-  for (std::size_t i = 0; i < max_terms; ++i) {
-    const float square = coefficients[i] * coefficients[i];
-    const float error = scale * variances[i];
-    filtered[i] *= square > error ? 1 - error / square : 0;
+  if (!settings_.residuals || samples_ == 0) {
+    for (std::size_t i = 0; i < max_terms; ++i) filtered[i] = fit.coefficients[i] * filter_[i];
+    return;
   }
+  const float scale = static_cast<float>(settings_.shrinkage) * fit.residual;
+  detail::shrink_terms(fit.coefficients.data(), filter_.data(),
+                       list_->variances(samples_ - 1).data(), scale, filtered.data());
 }
 
 /// Variance of the residuals within a pixel over the variance of their true means.
@@ -133,62 +126,63 @@ FREQSYNTH_INLINE double PixelFinisher::measured_doubt(const BlockFit& fit,
   return means_variance > 0 ? std::clamp(within / means_variance, least, most) : most;
 }
 
+/// Means of the samples that lie in pixels, which are flat: pixels do not leave their spread.
+/// \return how many pixels have some
+FREQSYNTH_INLINE std::size_t PixelFinisher::flat_means(const BlockFit& fit,
+                                                       std::span<float, max_terms> pixels,
+                                                       Means& means) const {
+  std::size_t count = 0;
+  detail::AlignedBlock shares, sums;
+  for (std::size_t pixel = 0; pixel < max_terms; ++pixel) {
+    const bool any = owned_.any(pixel);
+    shares[pixel] = any ? 1 : 0;
+    sums[pixel] = any ? owned_.mean(fit.own_sums, pixel) : 0;
+    if (!any) continue;
+    ++count;
+    pixels[pixel] = std::clamp(pixels[pixel], sums[pixel] - fit.spread, sums[pixel] + fit.spread);
+  }
+  detail::known_means(sums.data(), shares.data(), means.low, means.high);
+  detail::count_around(shares, means.counts);
+  return count;
+}
+
 /// Holds pixels within what the samples around have shown.
 FREQSYNTH_INLINE void PixelFinisher::bound(const BlockFit& fit, std::span<float, max_terms> pixels,
                                            const PixelEvidence& evidence) const {
-  constexpr int side = block_size;
-  constexpr int enough = 4;
-  std::array<float, max_terms> means;
-  std::array<bool, max_terms> sampled;
-  for (std::size_t pixel = 0; pixel < max_terms; ++pixel) {
-    sampled[pixel] = evidence.constant_pixels ? owned_.any(pixel) : weights_[pixel] > 0;
-    means[pixel] = fit.pixel_sums[pixel] * inverse_weights_[pixel];
-    if (!evidence.constant_pixels || !sampled[pixel]) continue;
-    means[pixel] = owned_.mean(fit.own_sums, pixel);
-    pixels[pixel] = std::clamp(pixels[pixel], means[pixel] - fit.spread, means[pixel] + fit.spread);
+  Means means;
+  std::size_t known = sampled_;
+  if (evidence.constant_pixels) {
+    known = flat_means(fit, pixels, means);
+  } else {
+    detail::known_means(fit.pixel_sums.data(), inverse_weights_.data(), means.low, means.high);
+    means.counts = counts_;
   }
-  struct Range {
-    float low = 0, high = 0;
-    int known = 0;
-  };
+  if (known == 0) return;
+  std::array<float, 2> ends;
+  detail::least_and_most(means.low, means.high, ends.data());
+  const auto [low, high] = ends;
+  const auto slack = static_cast<float>(settings_.slack);
+  // A fit that leaves nothing over does not ring; it knows peaks that lie between samples. Most
+  // blocks need no median to know that.
+  constexpr float share = 0.01f;
+  const float about = (high - low) * (1 + slack);
+  const float rounding = 1e-6f * (std::abs(low) + std::abs(high) + about);
+  const float surely = share * (about - rounding);
+  if (surely > 0 && fit.residual <= 0.9999f * surely * surely) return;
   // The slack on each side is in proportion to the distance from the median, so that a few bright
   // pixels beside many dark ones widen the range of the bright only.
-  const auto range_of = [&](int left, int top, int right, int bottom) {
-    std::array<float, max_terms> values;
-    Range range;
-    for (int y = std::max(top, 0); y <= std::min(bottom, side - 1); ++y) {
-      for (int x = std::max(left, 0); x <= std::min(right, side - 1); ++x) {
-        const auto pixel = static_cast<std::size_t>(y * side + x);
-        if (sampled[pixel]) values[static_cast<std::size_t>(range.known++)] = means[pixel];
-      }
-    }
-    if (range.known == 0) return range;
-    const auto end = values.begin() + range.known;
-    const auto middle = values.begin() + range.known / 2;
-    std::nth_element(values.begin(), middle, end);
-    const float low = *std::min_element(values.begin(), middle + 1);
-    const float high = *std::max_element(middle, end);
-    range.low = low - static_cast<float>(settings_.slack) * (*middle - low);
-    range.high = high + static_cast<float>(settings_.slack) * (high - *middle);
-    return range;
-  };
-  const Range whole = range_of(0, 0, side - 1, side - 1);
-  // A fit that leaves nothing over does not ring; it knows peaks that lie between samples.
-  const float visible = 0.01f * (whole.high - whole.low);
-  if (whole.known == 0 || fit.residual <= visible * visible) return;
-  const auto [least, most] = detail::extremes_around(means, sampled);
-  for (int y = 0; y < side; ++y) {
-    for (int x = 0; x < side; ++x) {
-      const auto at = static_cast<std::size_t>(y * side + x);
-      // Most are within what is shown around, which is cheaper to know than the median.
-      if (pixels[at] >= least[at] && pixels[at] <= most[at]) continue;
-      const Range around = range_of(x - 1, y - 1, x + 1, y + 1);
-      const Range& range = around.known < enough ? whole : around;
-      pixels[at] = std::clamp(pixels[at], range.low, range.high);
-    }
+  const float middle = detail::value_of_rank(means.low, known / 2, low, high);
+  const std::array<float, 2> whole = {low - slack * (middle - low), high + slack * (high - middle)};
+  const float visible = share * (whole[1] - whole[0]);
+  if (fit.residual <= visible * visible) return;
+  detail::AlignedBlock least, most;
+  // Most are within what is shown around, which is cheaper to know than the medians there.
+  if (detail::extremes_around(means.low, means.high, pixels.data(), least.data(), most.data())) {
+    detail::clamp_around(means.low, least.data(), most.data(), means.counts.data(), slack,
+                         whole.data(), pixels.data());
   }
   if (settings_.ringing == 0) return;
-  const float range = (whole.high - whole.low) / (1 + static_cast<float>(settings_.slack));
+  const float range = (whole[1] - whole[0]) / (1 + slack);
   OwnMeans(evidence.own_means).hold(pixels, range, static_cast<float>(settings_.ringing));
 }
 
@@ -209,7 +203,7 @@ FREQSYNTH_INLINE void PixelFinisher::pixel_samples(const BlockFit& fit,
                                                    std::span<const float, max_terms> otherwise,
                                                    std::span<float, max_terms> weights,
                                                    std::span<float, max_terms> sums) const {
-  std::array<float, max_terms> good = weights_;
+  detail::AlignedBlock good = weights_;
   std::copy(fit.pixel_sums.begin(), fit.pixel_sums.end(), sums.begin());
   leave_out(fit.gaps, good, sums);
   for (std::size_t pixel = 0; pixel < max_terms; ++pixel) {
@@ -228,22 +222,13 @@ FREQSYNTH_INLINE void PixelFinisher::finish_without_gaps(const BlockFit& fit,
   std::array<float, max_terms> pixel_sums;
   std::copy(fit.pixel_sums.begin(), fit.pixel_sums.end(), pixel_sums.begin());
   leave_out(fit.gaps, others.weights_, pixel_sums);
-  for (const Gap& gap : fit.gaps) {
-    const detail::SampleRow& row = list_->row(gap.sample);
-    for (std::size_t p = 0; p < row.pixel_count; ++p) {
-      float* sums = others.sums_.data() + row.pixels[p] * max_terms;
-      for (std::size_t i = 0; i < max_terms; ++i) {
-        sums[detail::zigzag_to_row_major[i]] -= row.pixel_weights[p] * (row.fit[i] + row.rest[i]);
-      }
-    }
-  }
+  for (const Gap& gap : fit.gaps) others.add_terms(list_->row(gap.sample), -1);
   others.samples_ -= fit.gaps.size();
   others.filter_ = butterworth_factors(settings_.butterworth, others.samples_);
-  for (std::size_t pixel = 0; pixel < max_terms; ++pixel) {
-    float& weight = others.weights_[pixel];
+  for (float& weight : others.weights_) {
     if (weight < detail::least_weight) weight = 0;
-    others.inverse_weights_[pixel] = weight > 0 ? 1 / weight : 0;
   }
+  others.weigh();
   others.finish({fit.coefficients, pixel_sums, fit.residual}, out, evidence);
 }
 
@@ -256,29 +241,24 @@ FREQSYNTH_INLINE std::vector<Gap> PixelFinisher::foreign_samples(
 FREQSYNTH_INLINE void PixelFinisher::finish(const BlockFit& fit, std::span<float, max_terms> out,
                                             const PixelEvidence& evidence) const {
   if (!fit.gaps.empty()) return finish_without_gaps(fit, out, evidence);
-  std::array<float, max_terms> filtered;
+  detail::AlignedBlock filtered;
   filter(fit, filtered);
   for (std::size_t i = 0; i < max_terms; ++i) out[i] = filtered[i] * box_[i];
   if (!settings_.residuals || samples_ == 0) return;
 
-  detail::AlignedBlock amplitudes, means, sums;
+  detail::AlignedBlock amplitudes, means, sums, pixels;
   for (std::size_t i = 0; i < max_terms; ++i) {
-    amplitudes[detail::zigzag_to_row_major[i]] =
-        filtered[i] * static_cast<float>(amplitude_of_coefficient(i));
-    sums[i] = fit.pixel_sums[i];
+    amplitudes[detail::zigzag_to_row_major[i]] = filtered[i] * detail::coefficient_amplitudes[i];
   }
+  std::copy(fit.pixel_sums.begin(), fit.pixel_sums.end(), sums.begin());
   detail::residual_means(sums_.data(), amplitudes.data(), sums.data(), inverse_weights_.data(),
                          means.data());
   const bool noisy = settings_.noise == Noise::present;
   const bool measure = noisy && settings_.measure_doubt && samples_ >= max_terms;
   const double usual = noisy ? settings_.noisy_doubt : settings_.doubt;
   const auto doubt = static_cast<float>(measure ? measured_doubt(fit, filtered, means) : usual);
-  std::array<float, max_terms> pixels;
   inverse_dct(out, pixels);
-  for (std::size_t pixel = 0; pixel < max_terms; ++pixel) {
-    if (weights_[pixel] == 0) continue;
-    pixels[pixel] += means[pixel] * weights_[pixel] / (weights_[pixel] + doubt);
-  }
+  detail::add_means(means.data(), weights_.data(), doubt, pixels.data());
   if (detail::is_finite(settings_.slack)) bound(fit, pixels, evidence);
   if (settings_.keep_positive && evidence.positive) detail::lift_negative(pixels);
   forward_dct(pixels, out);

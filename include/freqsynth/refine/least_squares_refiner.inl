@@ -164,9 +164,8 @@ FREQSYNTH_INLINE void LeastSquaresRefiner::coefficients(const float* state, std:
   const float* own = state + channel * max_terms;
   const bool known = samples > 0 && !detail::is_nan(own[0]);
   const std::size_t fit = known ? terms(samples) : 0;
-  for (std::size_t i = 0; i < max_terms; ++i) {
-    out[i] = i < fit ? own[i] / static_cast<float>(amplitude_of_coefficient(i)) : 0;
-  }
+  for (std::size_t i = 0; i < fit; ++i) out[i] = own[i] / detail::coefficient_amplitudes[i];
+  std::fill(out.begin() + static_cast<std::ptrdiff_t>(fit), out.end(), 0.0f);
 }
 
 FREQSYNTH_INLINE float LeastSquaresRefiner::prediction(const float* state, std::size_t index,

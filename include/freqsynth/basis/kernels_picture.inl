@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+// The kernels that pictures are finished with, written once for all instruction sets like those of
+// kernels_body.inl, whose rules hold here.
+
+namespace freqsynth::detail::FREQSYNTH_KERNEL_SET {
+
+FREQSYNTH_KERNEL
+void residual_means(const float* matrix, const float* amplitudes, const float* sums,
+                    const float* shares, float* out) {
+  FREQSYNTH_KERNEL_BEGIN
+  using Part = Pack<float, 8>;
+  for (std::size_t j = 0; j < max_terms; j += 4) {
+    const float* row = matrix + j * max_terms;
+    Part even[4] = {}, odd[4] = {};
+    for (std::size_t i = 0; i < max_terms; i += 16) {
+      const Part first = Part::load(amplitudes + i), second = Part::load(amplitudes + i + 8);
+      for (std::size_t k = 0; k < 4; ++k) {
+        even[k] += Part::load(row + k * max_terms + i) * first;
+        odd[k] += Part::load(row + k * max_terms + i + 8) * second;
+      }
+    }
+    const Pack<float, 4> fits =
+        sums_of(even[0] + odd[0], even[1] + odd[1], even[2] + odd[2], even[3] + odd[3]);
+    ((Pack<float, 4>::load(sums + j) - fits) * Pack<float, 4>::load(shares + j)).store(out + j);
+  }
+}
+
+FREQSYNTH_KERNEL
+void evaluate_separable(const float* amplitudes, const float* wx, std::size_t wx_stride,
+                        std::size_t columns, const float* wy, std::size_t rows, float* out,
+                        std::size_t out_stride) {
+  FREQSYNTH_KERNEL_BEGIN
+  for (std::size_t c = 0; c < columns; c += 8) {
+    Float8 partial[block_size];  // sum over u, for each v
+    for (std::size_t v = 0; v < block_size; ++v) {
+      const float* amplitude = amplitudes + v * block_size;
+      Float8 sum = amplitude[0] * Float8::load(wx + c);
+      for (std::size_t u = 1; u < block_size; ++u) {
+        sum += amplitude[u] * Float8::load(wx + u * wx_stride + c);
+      }
+      partial[v] = sum;
+    }
+    for (std::size_t r = 0; r < rows; ++r) {
+      const float* weight = wy + r * block_size;
+      Float8 sum = weight[0] * partial[0];
+      for (std::size_t v = 1; v < block_size; ++v) sum += weight[v] * partial[v];
+      sum.store(out + r * out_stride + c);
+    }
+  }
+}
+
+FREQSYNTH_KERNEL
+void forward_transform(const float* pixels, const double* cosines, const double* scales,
+                       float* out) {
+  FREQSYNTH_KERNEL_BEGIN
+  // As many frequencies at a time as there are registers for.
+  constexpr std::size_t lanes = FREQSYNTH_KERNEL_BYTES == 64 ? 8 : FREQSYNTH_KERNEL_BYTES / 8;
+  using Part = Pack<double, lanes>;
+  for (std::size_t u = 0; u < block_size; u += lanes) {
+    Part rows[block_size];
+    for (std::size_t y = 0; y < block_size; ++y) {
+      Part sum = {};
+      for (std::size_t x = 0; x < block_size; ++x) {
+        sum += static_cast<double>(pixels[y * block_size + x]) *
+               Part::load(cosines + x * block_size + u);
+      }
+      rows[y] = sum;
+    }
+    for (std::size_t v = 0; v < block_size; ++v) {
+      Part sum = {};
+      for (std::size_t y = 0; y < block_size; ++y) sum += cosines[y * block_size + v] * rows[y];
+      alignas(64) double scaled[lanes];
+      (Part::load(scales + v * block_size + u) * sum).store(scaled);
+      for (std::size_t i = 0; i < lanes; ++i) {
+        out[v * block_size + u + i] = static_cast<float>(scaled[i]);
+      }
+    }
+  }
+}
+
+FREQSYNTH_KERNEL
+void shrink_terms(const float* coefficients, const float* filter, const float* variances,
+                  float scale, float* out) {
+  FREQSYNTH_KERNEL_BEGIN
+  const Float8 one = all_lanes<Float8>(1.0f);
+  for (std::size_t i = 0; i < max_terms; i += 8) {
+    const Float8 coefficient = Float8::load_unaligned(coefficients + i);
+    const Float8 square = coefficient * coefficient;
+    const Float8 error = scale * Float8::load_unaligned(variances + i);
+    const Float8 share = if_less(error, square, one - quotient(error, square), Float8{});
+    (coefficient * Float8::load_unaligned(filter + i) * share).store_unaligned(out + i);
+  }
+}
+
+FREQSYNTH_KERNEL
+void add_means(const float* means, const float* weights, float doubt, float* pixels) {
+  FREQSYNTH_KERNEL_BEGIN
+  const Float8 doubts = all_lanes<Float8>(doubt);
+  for (std::size_t i = 0; i < max_terms; i += 8) {
+    const Float8 weight = Float8::load(weights + i), pixel = Float8::load(pixels + i);
+    const Float8 more = pixel + quotient(Float8::load(means + i) * weight, weight + doubts);
+    if_less(Float8{}, weight, more, pixel).store(pixels + i);
+  }
+}
+
+}  // namespace freqsynth::detail::FREQSYNTH_KERNEL_SET
