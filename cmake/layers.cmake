@@ -29,6 +29,8 @@ set(FREQSYNTH_LAYERS
   "engine/executor.h|how `run` uses threads|"
   "engine/thread_pool.h|a pool of threads, compiled only|"
   "engine/stop_rule.h|when a synthesis ends, and what it says of itself|4.4"
+  "engine/stop_meter.h|how far along the stop rules are|"
+  "engine/waiting_room.h|where threads wait for news|"
   "engine/noise.h|whether a sampler returns Monte Carlo estimates|"
   "engine/noise_probes.h|samples that are asked for twice, so that noise is noticed|"
   "engine/channel_settings.h|what each channel of a sample is for|"

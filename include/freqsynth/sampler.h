@@ -57,6 +57,12 @@ struct Request {
   bool again = false;
 };
 
+/// What request() does while all positions of a wave are out and owed.
+enum class Wait {
+  no,              ///< it returns 0
+  until_available  ///< it waits, without using a processor, and returns 0 at the end only
+};
+
 /// Largest magnitude that is usable: the coefficients of such values, eight times as large, and
 /// what is added up of them, are within what a float can hold.
 inline constexpr float max_sample_magnitude = 1e36f;

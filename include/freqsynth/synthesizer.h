@@ -73,12 +73,6 @@ struct SynthesisSettings {
   SharedInverseList shared_list = {};
 };
 
-/// A progress callback that never cancels.
-struct KeepGoing {
-  /// Go on.
-  bool operator()(double) const { return true; }
-};
-
 /// Turns a radiance function into a frequency image. All members but the constructor and the
 /// destructor may be called from any thread at any time; run() and request() may share an image.
 ///
@@ -94,14 +88,19 @@ class FREQSYNTH_API Synthesizer {
   Synthesizer(const Synthesizer&) = delete;
   Synthesizer& operator=(const Synthesizer&) = delete;
 
-  /// Sets when request() and run() stop, from the next wave on. At first there is no limit.
+  /// Sets when request() and run() stop, from the next wave on. At first there is no limit. What
+  /// cancel() has done is undone, and the clock of StopRule::seconds starts.
   /// \throws std::invalid_argument when a rule is negative or not a number.
   void set_stop(const StopRule& stop);
 
   /// Hands out up to out.size() positions, most urgent first, into the front of `out`.
-  /// \return how many. Fewer, or none, when the rest of the wave is out and owed by the host, or
-  ///         when a stop rule holds; stopped() tells which.
-  [[nodiscard]] std::size_t request(std::span<Request> out);
+  /// \param wait  what to do while the rest of the wave is out and owed by the host. A thread that
+  ///              waits for what it owes itself waits for ever, or for the end of the time.
+  /// \return how many. Fewer, when no more of the wave is left; none, when a stop rule holds, or
+  ///         with Wait::no also while all is owed; stopped() tells which.
+  [[nodiscard]] std::size_t request(std::span<Request> out, Wait wait = Wait::no);
+  /// Most positions that can be out at the same time: those of a wave. No larger `out` is of use.
+  [[nodiscard]] std::size_t wave_size() const;
 
   /// Other factors on the priorities of blocks from the next wave on, as
   /// SynthesisSettings::importance, so that sampling follows a mouse. What is known stays known.
@@ -118,23 +117,38 @@ class FREQSYNTH_API Synthesizer {
   /// \throws std::invalid_argument like deliver().
   void give_back(std::span<const Request> requests);
 
+  /// Gives up requests that nobody will answer: they are not handed out again, and a value that
+  /// comes later is refused. The image is made without them, as of samples without a usable value,
+  /// but they are counted apart, in SynthesisStats::abandoned. Like deliver() it needs no memory.
+  /// \throws std::invalid_argument like deliver().
+  void abandon(std::span<const Request> requests);
+
+  /// Ends request() and run(), with StopReason::cancelled: threads that wait in request() come back
+  /// at once with nothing, run() does after the batch that is under way. It holds until set_stop()
+  /// or the next run(). What is owed can still be delivered or given back. Waits for nothing.
+  void cancel();
+
   /// Why request() hands out nothing; empty while it does. Chooses the next wave, if none is under
   /// way.
   [[nodiscard]] std::optional<StopReason> stopped();
 
-  /// Samples until a stop rule holds or `progress` returns false.
+  /// How far it is by the rules that are set.
+  [[nodiscard]] Progress progress() const;
+
+  /// Samples until a stop rule holds, `progress` returns false or cancel() is called.
   ///
   /// \param sampler   the radiance function; called from the executor's threads at the same time
   /// \param executor  runs the calls; the result does not depend on it
-  /// \param progress  `bool(double)`: called after every batch with the share of allowed samples
-  ///                  that is done (0 without such a limit); false stops, and nothing is lost
+  /// \param progress  `bool(const Progress&)`, or `bool(double)` for Progress::fraction alone:
+  ///                  called after every batch, and at an end that it has not been told of by then;
+  ///                  false stops, and nothing is lost
   /// \param batch     most requests between two calls of `progress`, at least 1
   /// \throws what the sampler, the executor or the callback throws, and std::runtime_error when the
   ///         executor left out tasks. What the sampler returned before is delivered, the other
   ///         requests are given back; run() can be called again.
-  template <class S, class E = SerialExecutor, class Progress = KeepGoing>
-  RunReport run(S&& sampler, const StopRule& stop, E&& executor = E{},
-                Progress&& progress = Progress{}, std::size_t batch = 1024);
+  template <class S, class E = SerialExecutor, class P = KeepGoing>
+  RunReport run(S&& sampler, const StopRule& stop, E&& executor = E{}, P&& progress = P{},
+                std::size_t batch = 1024);
 
   /// The image as the paper has it: the fit of each block to the samples of completed waves, not
   /// filtered (CoefficientMeaning::point_function).
@@ -180,13 +194,16 @@ class FREQSYNTH_API Synthesizer {
 
 // ------------------------------------------------------------------------------------ definitions
 
-template <class S, class E, class Progress>
-RunReport Synthesizer::run(S&& sampler, const StopRule& stop, E&& executor, Progress&& progress,
+template <class S, class E, class P>
+RunReport Synthesizer::run(S&& sampler, const StopRule& stop, E&& executor, P&& progress,
                            std::size_t batch) {
   detail::check_sampler<std::remove_reference_t<S>>();
   static_assert(Executor<std::remove_reference_t<E>>,
                 "freqsynth: an executor has execute(std::size_t, TaskRef) and concurrency()");
-  if constexpr (Sampler<std::remove_reference_t<S>>) {
+  static_assert(ProgressCallback<std::remove_reference_t<P>>,
+                "freqsynth: a progress callback is bool(double) or bool(const Progress&)");
+  if constexpr (Sampler<std::remove_reference_t<S>> &&
+                ProgressCallback<std::remove_reference_t<P>>) {
     auto&& call = detail::as_object(sampler);
     auto&& report = detail::as_object(progress);
     return run_erased({call, channels()}, stop, detail::ExecutorRef(executor),

@@ -222,8 +222,12 @@ FREQSYNTH_INLINE void Synthesizer::set_stop(const StopRule& stop) {
   implementation_->with_engine([&](auto& engine) { engine.set_stop(stop); });
 }
 
-FREQSYNTH_INLINE std::size_t Synthesizer::request(std::span<Request> out) {
-  return implementation_->with_engine([&](auto& engine) { return engine.request(out); });
+FREQSYNTH_INLINE std::size_t Synthesizer::request(std::span<Request> out, Wait wait) {
+  return implementation_->with_engine([&](auto& engine) { return engine.request(out, wait); });
+}
+
+FREQSYNTH_INLINE std::size_t Synthesizer::wave_size() const {
+  return implementation_->with_engine([](const auto& engine) { return engine.wave_size(); });
 }
 
 FREQSYNTH_INLINE void Synthesizer::deliver(std::span<const Request> requests,
@@ -233,6 +237,18 @@ FREQSYNTH_INLINE void Synthesizer::deliver(std::span<const Request> requests,
 
 FREQSYNTH_INLINE void Synthesizer::give_back(std::span<const Request> requests) {
   implementation_->with_engine([&](auto& engine) { engine.give_back(requests); });
+}
+
+FREQSYNTH_INLINE void Synthesizer::abandon(std::span<const Request> requests) {
+  implementation_->with_engine([&](auto& engine) { engine.abandon(requests); });
+}
+
+FREQSYNTH_INLINE void Synthesizer::cancel() {
+  implementation_->with_engine([](auto& engine) { engine.cancel(); });
+}
+
+FREQSYNTH_INLINE Progress Synthesizer::progress() const {
+  return implementation_->with_engine([](const auto& engine) { return engine.progress(); });
 }
 
 FREQSYNTH_INLINE std::optional<StopReason> Synthesizer::stopped() {

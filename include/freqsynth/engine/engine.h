@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -37,7 +38,9 @@
 #include "freqsynth/engine/noise_probes.h"
 #include "freqsynth/engine/pixel_counts.h"
 #include "freqsynth/engine/signal_statistics.h"
+#include "freqsynth/engine/stop_meter.h"
 #include "freqsynth/engine/stop_rule.h"
+#include "freqsynth/engine/waiting_room.h"
 #include "freqsynth/engine/wave.h"
 #include "freqsynth/refine/refiner.h"
 #include "freqsynth/sampler.h"
@@ -64,16 +67,20 @@ class Engine {
   /// Other factors on the priorities, one for each block, from the next wave on.
   void set_factors(std::vector<float> factors);
   /// Hands out up to out.size() positions. \throws std::bad_alloc, and nothing is handed out.
-  std::size_t request(std::span<Request> out);
+  std::size_t request(std::span<Request> out, Wait wait = Wait::no);
   /// Takes values. \throws std::invalid_argument, and none is taken.
   void deliver(std::span<const Request> requests, std::span<const float> values);
   /// Takes requests back without values. \throws std::invalid_argument, and none is taken.
   void give_back(std::span<const Request> requests);
+  /// Takes requests back that nobody will answer. \throws std::invalid_argument, and none is taken.
+  void abandon(std::span<const Request> requests);
+  /// Nothing is handed out any more until set_stop().
+  void cancel();
   /// Why nothing is handed out. \throws std::bad_alloc.
   std::optional<StopReason> stopped();
 
-  /// Share of the allowed samples that is there, 0 without a limit.
-  [[nodiscard]] double progress() const;
+  /// How far it is.
+  [[nodiscard]] Progress progress() const;
   /// Most positions that request() hands out before values have to come back.
   [[nodiscard]] std::size_t wave_size() const { return wave_size_ + NoiseProbes::most(wave_size_); }
   /// Whether values are taken for estimates by now.
@@ -117,6 +124,9 @@ class Engine {
     return blocks_.refiner().list().position(index);
   }
   void use_factors();
+  std::optional<StopReason> end();
+  [[nodiscard]] StopMeter::Shares shares() const;
+  void end_of_delivery();
   std::optional<StopReason> prepare_wave();
   std::optional<StopReason> choose_wave();
   void reserve(std::size_t most);
@@ -154,6 +164,10 @@ class Engine {
   double shares_ = 0;                          // of all blocks, see BlockChoice::share()
   std::optional<std::vector<float>> factors_;  // that are to be used from the next wave on
   StopRule stop_;
+  StopMeter meter_;
+  std::optional<StopReason> ended_;  // why there is no wave
+  std::atomic<bool> cancelled_{false};
+  WaitingRoom room_;
   SynthesisStats stats_;
   std::vector<bool> counts_;  // channels whose values can make a sample bad
   bool any_usable_ = false;   // whether there was a usable value

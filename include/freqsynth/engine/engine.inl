@@ -5,6 +5,7 @@
 #include "freqsynth/basis/mix_bits.h"
 #include "freqsynth/engine/engine.h"
 #include "freqsynth/engine/engine_choice.inl"
+#include "freqsynth/engine/engine_end.inl"
 #include "freqsynth/engine/engine_requests.inl"
 
 namespace freqsynth {
@@ -38,26 +39,11 @@ Engine<R, M>::Engine(const BlockGrid& grid, BlockStore<R> blocks, M measure,
 }
 
 template <Refiner R, BlockMeasure<R> M>
-void Engine<R, M>::set_stop(const StopRule& stop) {
-  stop.validate();
-  const std::lock_guard lock(mutex_);
-  stop_ = stop;
-  stop_.samples = stop.most_samples(grid_.width, grid_.height);
-  patience_ = stats_.samples + unusable_at_most;
-}
-
-template <Refiner R, BlockMeasure<R> M>
 void Engine<R, M>::set_factors(std::vector<float> factors) {
   FREQSYNTH_ASSERT(factors.size() == grid_.size());
   const std::lock_guard lock(mutex_);
   factors_ = std::move(factors);
-}
-
-template <Refiner R, BlockMeasure<R> M>
-std::optional<StopReason> Engine<R, M>::stopped() {
-  const std::lock_guard lock(mutex_);
-  if (wave_.empty()) return prepare_wave();
-  return wave_.waiting() ? std::nullopt : std::optional(StopReason::waiting);
+  ended_.reset();
 }
 
 /// Takes in a complete wave. Nothing in it throws; see reserve().
@@ -163,6 +149,7 @@ void Engine<R, M>::note(std::size_t number) {
       ignored = true;
     }
   }
+  if (wave_.abandoned(number)) return;
   if (!bad) {
     stats_.ignored_bad_samples += ignored ? 1 : 0;
     return;
@@ -236,14 +223,6 @@ auto Engine<R, M>::with_snapshot(Use&& use) const {
   const Watch watch(*this, keeper);
   lock.unlock();
   return use(grid_, snapshot, noisy);
-}
-
-template <Refiner R, BlockMeasure<R> M>
-double Engine<R, M>::progress() const {
-  const std::lock_guard lock(mutex_);
-  if (stop_.samples == std::numeric_limits<std::uint64_t>::max() || stop_.samples == 0) return 0;
-  const auto samples = static_cast<double>(stats_.samples + wave_.delivered_samples());
-  return samples / static_cast<double>(stop_.samples);
 }
 
 template <Refiner R, BlockMeasure<R> M>

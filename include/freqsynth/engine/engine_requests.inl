@@ -7,9 +7,19 @@
 namespace freqsynth {
 
 template <Refiner R, BlockMeasure<R> M>
-std::size_t Engine<R, M>::request(std::span<Request> out) {
-  const std::lock_guard lock(mutex_);
-  if (wave_.empty() && prepare_wave()) return 0;
+std::size_t Engine<R, M>::request(std::span<Request> out, Wait wait) {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    // Asked before anything is looked at: what changes afterwards is news.
+    const std::uint64_t news = room_.news();
+    if (end()) return 0;
+    if (wave_.waiting()) break;
+    if (wait == Wait::no || out.empty()) return 0;
+    const auto deadline = meter_.deadline();
+    lock.unlock();
+    room_.wait(news, deadline);
+    lock.lock();
+  }
   std::size_t count = 0;
   while (count < out.size() && wave_.waiting()) {
     out[count] = make_request(wave_.hand_out());
@@ -77,7 +87,7 @@ void Engine<R, M>::deliver(std::span<const Request> requests, std::span<const fl
   for (std::size_t i = 0; i < requests.size(); ++i) {
     wave_.deliver(requests[i].slot, values.data() + i * channels);
   }
-  if (wave_.complete()) finish_wave();
+  end_of_delivery();
 }
 
 template <Refiner R, BlockMeasure<R> M>
@@ -85,6 +95,24 @@ void Engine<R, M>::give_back(std::span<const Request> requests) {
   const std::lock_guard lock(mutex_);
   claim(requests);
   for (const Request& request : requests) wave_.recall(request.slot);
+  if (!requests.empty()) room_.wake();
+}
+
+template <Refiner R, BlockMeasure<R> M>
+void Engine<R, M>::abandon(std::span<const Request> requests) {
+  const std::lock_guard lock(mutex_);
+  claim(requests);
+  for (const Request& request : requests) wave_.abandon(request.slot);
+  stats_.abandoned += requests.size();
+  end_of_delivery();
+}
+
+/// Takes in the wave, when all of it is there.
+template <Refiner R, BlockMeasure<R> M>
+void Engine<R, M>::end_of_delivery() {
+  if (!wave_.complete()) return;
+  finish_wave();
+  room_.wake();
 }
 
 }  // namespace freqsynth

@@ -77,21 +77,49 @@ class ExecutorRef {
   std::size_t (*concurrency_)(void*);
 };
 
+}  // namespace freqsynth::detail
+
+namespace freqsynth {
+
+/// A progress callback that never cancels.
+struct KeepGoing {
+  /// Go on.
+  bool operator()(double) const { return true; }
+};
+
+/// A function of the Progress, or of its fraction alone, that returns whether to go on.
+template <class P>
+concept ProgressCallback = std::is_invocable_r_v<bool, P&, double> ||
+                           std::is_invocable_r_v<bool, P&, const Progress&>;
+
+namespace detail {
+
 /// A reference to a progress callback.
 class ProgressRef {
  public:
-  template <class P>
+  template <ProgressCallback P>
   explicit ProgressRef(P& progress)
       : progress_(const_cast<void*>(static_cast<const void*>(&progress))),
-        call_(
-            [](void* object, double share) -> bool { return (*static_cast<P*>(object))(share); }) {}
+        call_([](void* object, const Progress& now) -> bool {
+          // One that would take anything takes the fraction.
+          if constexpr (std::is_invocable_r_v<bool, P&, double>) {
+            return (*static_cast<P*>(object))(now.fraction);
+          } else {
+            return (*static_cast<P*>(object))(now);
+          }
+        }),
+        listens_(!std::is_same_v<P, const KeepGoing> && !std::is_same_v<P, KeepGoing>) {}
 
+  /// Whether it makes a difference to call it.
+  [[nodiscard]] bool listens() const { return listens_; }
   /// Whether to go on.
-  bool operator()(double share) const { return call_(progress_, share); }
+  bool operator()(const Progress& now) const { return call_(progress_, now); }
 
  private:
   void* progress_;
-  bool (*call_)(void*, double);
+  bool (*call_)(void*, const Progress&);
+  bool listens_;
 };
 
-}  // namespace freqsynth::detail
+}  // namespace detail
+}  // namespace freqsynth

@@ -176,6 +176,7 @@ RunReport run_loop(E& engine, std::size_t channels, const SamplerRef& sampler, c
   const std::size_t most_parts =
       concurrency <= 1 ? 1 : std::min(most, 4 * std::min(concurrency, most));
   Batch<E> requests(engine, channels, most, most_parts, concurrency);
+  bool told = false;  // that it has come to its end
   while (const std::size_t parts = requests.fill()) {
     const auto task = [&](std::size_t index) { requests.answer(sampler, index); };
     const auto sampling_begin = Clock::now();
@@ -187,9 +188,18 @@ RunReport run_loop(E& engine, std::size_t channels, const SamplerRef& sampler, c
       throw std::runtime_error("freqsynth: the executor left out " + std::to_string(left_out) +
                                " of " + std::to_string(parts) + " tasks");
     }
-    if (!progress(engine.progress())) return report(StopReason::cancelled);
+    if (!progress.listens()) continue;
+    const Progress now = engine.progress();
+    told = now.fraction == 1;
+    if (!progress(now)) return report(StopReason::cancelled);
   }
-  return report(engine.stopped().value_or(StopReason::waiting));
+  const StopReason reason = engine.stopped().value_or(StopReason::waiting);
+  // An end that no batch has foreseen.
+  if (progress.listens() && !told) {
+    const Progress now = engine.progress();
+    if (now.fraction == 1) progress(now);
+  }
+  return report(reason);
 }
 
 }  // namespace freqsynth::detail

@@ -11,14 +11,22 @@
 
 namespace freqsynth {
 
-/// When to stop; the first rule that holds ends the synthesis. Rules count from the engine's
-/// creation, so that raising them goes on.
+/// When to stop; the first rule that holds ends the synthesis. All rules but `seconds` count from
+/// the engine's creation, so that raising them goes on.
+///
+/// None can make a synthesis endless: whatever they say, it ends when every block has
+/// SynthesisSettings::max_samples_per_block.
 struct StopRule {
   /// Samples per pixel, fractions included; rounded to whole samples. >= 0. The few that are asked
   /// for twice, see SynthesisStats::probes, count once, as in all rules.
   double samples_per_pixel = std::numeric_limits<double>::infinity();
   /// Samples in total.
   std::uint64_t samples = std::numeric_limits<std::uint64_t>::max();
+  /// Seconds of wall-clock time, >= 0, from the moment at which the rule is set: when run() begins,
+  /// or set_stop() is called. Then no position is handed out any more, in the middle of a wave too,
+  /// so that run() comes back after the batch that is under way. What came in of that wave is kept
+  /// for a later run; images show completed waves. More than 1e9 are no limit.
+  double seconds = std::numeric_limits<double>::infinity();
   /// The aliasing threshold of section 4.4 in the signal's unit, >= 0: no block changes by more
   /// with its next sample, as root mean square over its pixels and by the estimate of
   /// PrioritySettings::measure. Not an error bound. Where PrioritySettings::steer is not linear,
@@ -41,9 +49,10 @@ enum class StopReason {
   samples,    ///< the number of samples is reached
   threshold,  ///< every block is below the aliasing threshold, or meets the quantization target
   exhausted,  ///< every block has its most samples, or there is no block
-  cancelled,  ///< the progress callback said so
+  cancelled,  ///< the progress callback said so, or cancel() was called
   waiting,    ///< positions handed out by request() elsewhere are still owed
-  unusable    ///< not one sample had a usable value: there is no image
+  unusable,   ///< not one sample had a usable value: there is no image
+  seconds     ///< the time is over
 };
 
 /// Counters since the engine's creation.
@@ -63,6 +72,9 @@ struct SynthesisStats {
   /// Samples with such a value in passive channels only, or with NaN in those of
   /// ChannelRole::nearest. They are no bad samples: for all other channels they are as good as any.
   std::uint64_t ignored_bad_samples = 0;
+  /// Requests that were abandoned. They are among `samples` or `probes`, as if they had been
+  /// delivered, so that rules and progress count them; but they are no bad samples.
+  std::uint64_t abandoned = 0;
   std::uint64_t waves = 0;   ///< waves completed
   std::uint64_t blocks = 0;  ///< blocks of the image
 };
@@ -72,6 +84,21 @@ struct BadSample {
   double x = 0;          ///< continuous pixels to the right
   double y = 0;          ///< continuous pixels downwards
   std::uint64_t id = 0;  ///< that of its Request
+};
+
+/// How far a synthesis is.
+struct Progress {
+  /// Share of the way to the end, 0..1, by the rule that is furthest along: samples, seconds, or
+  /// the most samples that blocks may have. The aliasing threshold and a quantization target may
+  /// end it earlier. It is 1 at the end and not before, and never falls until rules are set anew.
+  double fraction = 0;
+  double seconds = 0;  ///< since the rules were set
+  /// Until the end, at the pace since the rules were set: 0 at the end, infinity while unknown. The
+  /// rest of a batch and the finishing of the picture come on top.
+  double seconds_left = std::numeric_limits<double>::infinity();
+  std::uint64_t samples = 0;  ///< see SynthesisStats::samples
+  /// Of the picture: the number of completed waves. image() is another one when this is.
+  std::uint64_t revision = 0;
 };
 
 /// What run() did.

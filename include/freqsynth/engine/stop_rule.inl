@@ -14,6 +14,7 @@ FREQSYNTH_INLINE void StopRule::validate() const {
     detail::require(!detail::is_nan(value) && value >= 0, name, value, ">= 0");
   };
   check(samples_per_pixel, "samples_per_pixel");
+  check(seconds, "seconds");
   check(aliasing_threshold, "aliasing_threshold");
 }
 

@@ -2,12 +2,13 @@
 /// \file
 /// A wave: positions that were chosen together, and the values that have come for them.
 ///
-/// Every slot of a wave is waiting to be handed out, owed by the host, or delivered. The engine
-/// takes the values in when all are delivered, in the order of the slots, so that it does not
+/// Every slot of a wave is waiting to be handed out, owed by the host, or delivered, for good or
+/// abandoned. The engine takes the values in when all are delivered, in the order of the slots, so that it does not
 /// matter in which order they came.
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -67,14 +68,18 @@ class Wave {
     return slot < slots_.size() && states_[slot] == State::owed;
   }
   // The host answers in two steps, so that an answer is taken as a whole or not at all: claim all
-  // slots of it, which makes a second mention of a slot a fault; then deliver or recall each, or
-  // let go of them.
+  // slots of it, which makes a second mention of a slot a fault; then deliver, abandon or recall
+  // each, or let go of them.
   /// Claims a slot that is owed.
   void claim(std::uint32_t slot);
   /// A claimed slot is owed again.
   void let_go(std::uint32_t slot) { states_[slot] = State::owed; }
   /// Stores all values of a claimed slot.
   void deliver(std::uint32_t slot, const float* values);
+  /// A claimed slot is delivered without a value: all are NaN.
+  void abandon(std::uint32_t slot);
+  /// Whether a slot was delivered so.
+  [[nodiscard]] bool abandoned(std::size_t slot) const { return states_[slot] == State::abandoned; }
   /// Lets a claimed slot wait again.
   void recall(std::uint32_t slot);
 
@@ -103,7 +108,12 @@ class Wave {
   void clear();
 
  private:
-  enum class State : std::uint8_t { waiting, owed, claimed, delivered };
+  enum class State : std::uint8_t { waiting, owed, claimed, delivered, abandoned };
+
+  void count(std::uint32_t slot) {
+    ++delivered_;
+    delivered_samples_ += slot < samples_ ? 1 : 0;
+  }
 
   std::size_t channels_, nearest_;
   std::vector<Slot> slots_;
@@ -168,8 +178,17 @@ inline void Wave::deliver(std::uint32_t slot, const float* values) {
   states_[slot] = State::delivered;
   std::copy_n(values, channels_, values_.data() + slot * channels_);
   std::copy_n(values + channels_, nearest_, nearest_values_.data() + slot * nearest_);
-  ++delivered_;
-  delivered_samples_ += slot < samples_ ? 1 : 0;
+  count(slot);
+}
+
+inline void Wave::abandon(std::uint32_t slot) {
+  FREQSYNTH_ASSERT(states_[slot] == State::claimed);
+  states_[slot] = State::abandoned;
+  // A NaN by its bits, which no compiler takes for impossible.
+  const auto none = std::bit_cast<float>(0x7fc00000u);
+  std::fill_n(values_.data() + slot * channels_, channels_, none);
+  std::fill_n(nearest_values_.data() + slot * nearest_, nearest_, none);
+  count(slot);
 }
 
 inline void Wave::clear() {
