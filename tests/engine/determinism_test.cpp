@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +18,6 @@ namespace {
 using helpers::at_samples;
 using helpers::picture;
 using helpers::settings_of;
-using testing::Each;
 
 constexpr std::uint64_t samples = 1777;
 
@@ -149,41 +147,6 @@ TEST(Determinism, InterruptedRunsGiveTheSameImage) {
     EXPECT_GT(runs, 200u) << "254 were measured";
     EXPECT_TRUE(helpers::same_image(engine.image(), expected));
   }
-}
-
-TEST(Determinism, ProgressIsTheShareOfTheSamples) {
-  Synthesizer engine(usual(0));
-  std::vector<double> shares;
-  std::size_t asked = 0;
-  engine.run(
-      [&](const Request& request) {
-        asked += request.again ? 0 : 1;
-        return colour(request.x, request.y);
-      },
-      at_samples(500), SerialExecutor{},
-      [&](double share) {
-        EXPECT_DOUBLE_EQ(share, static_cast<double>(asked) / 500);
-        shares.push_back(share);
-        return true;
-      },
-      4);
-  EXPECT_EQ(shares.back(), 1);
-  EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
-  // A wave is a 32nd of the blocks, here one: a call of the progress for every sample.
-  EXPECT_EQ(shares.size(), 500u);
-}
-
-TEST(Determinism, ProgressWithoutLimitIsZero) {
-  SynthesisSettings settings = usual(0);
-  settings.max_samples_per_block = 25;
-  Synthesizer engine(settings);
-  std::vector<double> shares;
-  engine.run(colour, StopRule{}, SerialExecutor{}, [&](double share) {
-    shares.push_back(share);
-    return true;
-  });
-  EXPECT_FALSE(shares.empty());
-  EXPECT_THAT(shares, Each(0.0));
 }
 
 TEST(Determinism, CancelStopsAfterTheBatch) {

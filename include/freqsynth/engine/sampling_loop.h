@@ -89,8 +89,8 @@ struct KeepGoing {
 
 /// A function of the Progress, or of its fraction alone, that returns whether to go on.
 template <class P>
-concept ProgressCallback = std::is_invocable_r_v<bool, P&, double> ||
-                           std::is_invocable_r_v<bool, P&, const Progress&>;
+concept ProgressCallback =
+    std::is_invocable_r_v<bool, P&, double> || std::is_invocable_r_v<bool, P&, const Progress&>;
 
 namespace detail {
 

@@ -3,8 +3,8 @@
 /// A wave: positions that were chosen together, and the values that have come for them.
 ///
 /// Every slot of a wave is waiting to be handed out, owed by the host, or delivered, for good or
-/// abandoned. The engine takes the values in when all are delivered, in the order of the slots, so that it does not
-/// matter in which order they came.
+/// abandoned. The engine takes the values in when all are delivered, in the order of the slots, so
+/// that it does not matter in which order they came.
 #pragma once
 
 #include <algorithm>
