@@ -101,7 +101,10 @@ class Estate {
 };
 
 /// Works until there is no more, or the thread dies and leaves what it holds.
-void work(Synthesizer& engine, const Host& host, Estate& estate, unsigned seed, bool mortal) {
+/// \param mortal   whether it may die
+/// \param cancels  whether it may end it all
+void work(Synthesizer& engine, const Host& host, Estate& estate, unsigned seed, bool mortal,
+          bool cancels) {
   oracle::Random random(seed);
   const std::size_t portion = 1 + random.below(12);
   std::vector<Request> requests;
@@ -110,6 +113,7 @@ void work(Synthesizer& engine, const Host& host, Estate& estate, unsigned seed, 
     requests.resize(engine.request(requests, Wait::until_available));
     if (requests.empty()) return;
     std::shuffle(requests.begin(), requests.end(), random.engine());
+    if (cancels && random.below(10) == 0) engine.cancel();
     if (mortal && random.below(20) == 0) return estate.leave(requests);
     while (!requests.empty()) {
       if (random.below(30) == 0) {
@@ -124,26 +128,23 @@ void work(Synthesizer& engine, const Host& host, Estate& estate, unsigned seed, 
 
 /// Threads at work until they come back. The first of them lives.
 void work_together(Synthesizer& engine, const Host& host, std::size_t count, oracle::Random& random,
-                   bool cancel) {
+                   bool cancels) {
   Estate estate;
   std::atomic<std::size_t> left = count;
   std::vector<std::thread> threads;
   for (std::size_t i = 0; i < count; ++i) {
     const auto seed = static_cast<unsigned>(random.below(1000000));
     threads.emplace_back([&, i, seed] {
-      work(engine, host, estate, seed, i > 0);
+      work(engine, host, estate, seed, i > 0, cancels);
       --left;
     });
   }
-  const std::size_t patience = random.below(20);
-  std::size_t looks = 0;
   while (left > 0) {
     // Somebody notices what the dead have left. Half of it is done by hand.
     const std::vector<Request> found = estate.take();
     const std::span<const Request> all = found;
     for (const Request& request : all.first(found.size() / 2)) host.answer(engine, request);
     engine.give_back(all.subspan(found.size() / 2));
-    if (cancel && ++looks > patience) engine.cancel();
     std::this_thread::yield();
   }
   for (std::thread& thread : threads) thread.join();
