@@ -9,22 +9,15 @@
 #include <vector>
 
 #include "freqsynth/basis/config.h"
+#include "freqsynth/image/pixel_filter.h"
 
-namespace freqsynth {
-
-/// What a pixel's value is.
-enum class PixelFilter : std::uint8_t {
-  none,  ///< the function's value at the pixel's centre
-  box    ///< its exact average over the pixel's area
-};
-
-namespace detail {
+namespace freqsynth::detail {
 
 /// The pixels of the output that one column (or row) of blocks contributes to.
 struct AxisBlock {
   std::size_t first = 0;       ///< first output pixel
   std::size_t count = 0;       ///< how many
-  bool continues = false;      ///< the first one began in the previous block
+  std::size_t begun = 0;       ///< so many of the first ones have begun in earlier blocks
   std::vector<float> weights;  ///< of cos(pi u s) in each pixel
 };
 
@@ -37,13 +30,15 @@ enum class WeightOrder : std::uint8_t {
   by_pixel       ///< [count][v], for its rows
 };
 
+/// Whether the filter is wider than its pixel, or may be: pixels are then made of several blocks.
+[[nodiscard]] bool is_wide(PixelFilter filter, const PixelFilterShape& shape);
+
 /// One axis of the output: `size` pixels of the image become `out` pixels.
 [[nodiscard]] std::vector<AxisBlock> make_axis(std::size_t size, std::size_t out,
-                                               PixelFilter filter, WeightOrder order);
+                                               PixelFilter filter, const PixelFilterShape& shape,
+                                               WeightOrder order);
 
-}  // namespace detail
-
-}  // namespace freqsynth
+}  // namespace freqsynth::detail
 
 #if defined(FREQSYNTH_HEADER_ONLY)
 #include "freqsynth/image/axis_weights.inl"

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "freqsynth/basis/config.h"
-#include "freqsynth/image/axis_weights.h"
 #include "freqsynth/image/butterworth.h"
 #include "freqsynth/image/frequency_image.h"
+#include "freqsynth/image/pixel_filter.h"
 #include "freqsynth/image/pixel_view.h"
 
 namespace freqsynth {
@@ -24,6 +24,7 @@ struct ReconstructionSettings {
   /// Replace values below zero, the ringing beside bright edges, by zero in all channels. In those
   /// that the image says are not negative they are in any case.
   bool clamp_negative = false;
+  PixelFilterShape filter_shape = {};  ///< the numbers of `pixel_filter`
 };
 
 /// Writes the image into `out`: all its channels, at any width and height. Pixel (i, j) covers the

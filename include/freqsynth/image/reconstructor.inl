@@ -12,6 +12,8 @@
 #include "freqsynth/basis/dct.h"
 #include "freqsynth/basis/float_bits.h"
 #include "freqsynth/basis/kernels.h"
+#include "freqsynth/image/axis_weights.h"
+#include "freqsynth/image/mean_filter.h"
 #include "freqsynth/image/reconstructor.h"
 
 namespace freqsynth {
@@ -68,9 +70,8 @@ class BlockPixels {
     for (std::size_t r = 0; r < row_->count; ++r) {
       float* const line = corner + static_cast<std::ptrdiff_t>(r) * out.row_stride;
       const float* const source = pixels_.data() + r * stride_;
-      // Pixels that an earlier block has begun: the first row, or the first one of a row.
-      const bool begun_row = r == 0 && row_->continues;
-      const std::size_t begun = begun_row ? count : column_->continues && count > 0 ? 1 : 0;
+      // Pixels that an earlier block has begun: first rows, or the first ones of a row.
+      const std::size_t begun = r < row_->begun ? count : std::min(column_->begun, count);
       for (std::size_t c = 0; c < begun; ++c)
         line[static_cast<std::ptrdiff_t>(c) * step] += source[c];
       for (std::size_t c = begun; c < count; ++c) {
@@ -87,10 +88,12 @@ class BlockPixels {
   AlignedVector<float> weights_, pixels_;
 };
 
-inline void clamp_negative_values(const PixelView& out, std::size_t channels) {
+/// In all channels, or in those that the image says are not negative.
+inline void clamp_negative_values(const PixelView& out, const FrequencyImage& image, bool all) {
   for (std::size_t y = 0; y < out.height; ++y) {
     for (std::size_t x = 0; x < out.width; ++x) {
-      for (std::size_t channel = 0; channel < channels; ++channel) {
+      for (std::size_t channel = 0; channel < image.channels(); ++channel) {
+        if (!all && !image.non_negative(channel)) continue;
         float& value = out.data[static_cast<std::ptrdiff_t>(y) * out.row_stride +
                                 static_cast<std::ptrdiff_t>(x) * out.pixel_stride +
                                 static_cast<std::ptrdiff_t>(channel) * out.channel_stride];
@@ -100,33 +103,68 @@ inline void clamp_negative_values(const PixelView& out, std::size_t channels) {
   }
 }
 
-}  // namespace detail
-
-FREQSYNTH_INLINE void reconstruct(const FrequencyImage& image,
-                                  const ReconstructionSettings& settings, const PixelView& out) {
-  settings.butterworth.validate();
-  if (image.blocks_x() == 0 || image.blocks_y() == 0 || out.width == 0 || out.height == 0) return;
-  const PixelView view = out.resolved(image.channels());
+/// Pixels from the coefficients of the blocks that they lie in.
+inline void reconstruct_blocks(const FrequencyImage& image, const ReconstructionSettings& settings,
+                               bool wide, const PixelView& out) {
   // The weights of an average are right for coefficients that are averages too, once undone.
-  using detail::WeightOrder;
-  const auto columns = detail::make_axis(image.width(), view.width, settings.pixel_filter,
-                                         WeightOrder::by_frequency);
-  const auto rows =
-      detail::make_axis(image.height(), view.height, settings.pixel_filter, WeightOrder::by_pixel);
-  detail::ButterworthTable factors = detail::amplitude_factors(image, settings.butterworth);
-  detail::BlockPixels pixels;
+  const auto axis_of = [&](std::size_t size, std::size_t pixels, WeightOrder order) {
+    return make_axis(size, pixels, settings.pixel_filter, settings.filter_shape, order);
+  };
+  const auto columns = axis_of(image.width(), out.width, WeightOrder::by_frequency);
+  const auto rows = axis_of(image.height(), out.height, WeightOrder::by_pixel);
+  ButterworthTable factors = amplitude_factors(image, settings.butterworth);
+  BlockPixels pixels;
   for (std::size_t by = 0; by < rows.size(); ++by) {
     for (std::size_t bx = 0; bx < columns.size(); ++bx) {
       const auto& factor = factors.of(image.samples(bx, by));
       pixels.go_to(columns[bx], rows[by]);
       for (std::size_t channel = 0; channel < image.channels(); ++channel) {
         pixels.compute(image.coefficients(bx, by, channel), factor);
-        if (image.non_negative(channel)) pixels.clamp_negative();
-        pixels.write(view, channel);
+        if (!wide && image.non_negative(channel)) pixels.clamp_negative();
+        pixels.write(out, channel);
       }
     }
   }
-  if (settings.clamp_negative) detail::clamp_negative_values(view, image.channels());
+}
+
+/// Finished pixels with a wide filter: the pixels, whose averages they are, of one channel after
+/// the other. Takes memory for the image at its own size.
+inline void filter_finished_pixels(const FrequencyImage& image,
+                                   const ReconstructionSettings& settings, const PixelView& out) {
+  const std::size_t width = image.width(), height = image.height(), channels = image.channels();
+  std::vector<float> means(width * height * channels);
+  reconstruct(image, {.butterworth = settings.butterworth},
+              {means.data(), width, height, 1, static_cast<std::ptrdiff_t>(width),
+               static_cast<std::ptrdiff_t>(width * height)});
+  const FilterKernel kernel(settings.pixel_filter, settings.filter_shape);
+  const MeanAxis columns = make_mean_axis(width, out.width, kernel);
+  const MeanAxis rows = make_mean_axis(height, out.height, kernel);
+  for (std::size_t channel = 0; channel < channels; ++channel) {
+    PixelView one = out;
+    one.data += static_cast<std::ptrdiff_t>(channel) * out.channel_stride;
+    filter_means(means.data() + channel * width * height, width, columns, rows,
+                 !kernel.has_negative(), one);
+  }
+}
+
+}  // namespace detail
+
+FREQSYNTH_INLINE void reconstruct(const FrequencyImage& image,
+                                  const ReconstructionSettings& settings, const PixelView& out) {
+  settings.butterworth.validate();
+  settings.filter_shape.validate(settings.pixel_filter);
+  if (image.blocks_x() == 0 || image.blocks_y() == 0 || out.width == 0 || out.height == 0) return;
+  const PixelView view = out.resolved(image.channels());
+  // Where blocks share pixels, and weights may be negative, it is the sums that must not be.
+  const bool wide = detail::is_wide(settings.pixel_filter, settings.filter_shape);
+  if (wide && image.meaning() == CoefficientMeaning::pixel_average) {
+    detail::filter_finished_pixels(image, settings, view);
+  } else {
+    detail::reconstruct_blocks(image, settings, wide, view);
+  }
+  if (settings.clamp_negative || wide) {
+    detail::clamp_negative_values(view, image, settings.clamp_negative);
+  }
 }
 
 FREQSYNTH_INLINE std::size_t scaled_size(std::size_t size, double scale) {
