@@ -21,6 +21,7 @@ set(FREQSYNTH_LAYERS
   "basis/normal_inverse.h|J and its inverse, growing: Powell's rank-one update, Frobenius bordering|4.1.2, 4.2"
   "basis/inverse_list.h|the shared list: position, J^-1, gain for every index|4.3"
   "basis/shared_list.h|a reference to a list that several images share|4.3"
+  "sample_traits.h|what a sampler may return|"
   "sampler.h|what a radiance function looks like, and requests|"
   "refine/refiner.h|what an estimator of blocks must do|4.1"
   "refine/gap_log.h|samples that had no usable value, and what took their place|"

@@ -3,15 +3,15 @@
 /// What the library asks of a host, and in which form: requests and the sampler concepts.
 ///
 /// A host's radiance function comes in one of three forms:
-///  - scalar: `f(x, y)` returns a float (or double) for one channel, or a std::array of them;
+///  - scalar: `f(x, y)` returns a float (or double) for one channel, or several: a std::array, a
+///    struct of floats, or a type of the host's, see sample_traits.h;
 ///  - by request: `f(request)` does the same for a `const Request&`, which has more than the
 ///    position: a seed for random numbers, the sample's ordinal in its pixel, the distance to other
 ///    samples, a number for the thread's own memory;
 ///  - batch: `f(std::span<const Request>, std::span<float>)` writes `channels` values per request,
-///    those of request i at [i * channels, (i + 1) * channels).
+///    those of request i at [i * channels, (i + 1) * channels). strided() moves them further apart.
 #pragma once
 
-#include <array>
 #include <bit>
 #include <concepts>
 #include <cstddef>
@@ -20,6 +20,7 @@
 #include <type_traits>
 
 #include "freqsynth/basis/config.h"
+#include "freqsynth/sample_traits.h"
 
 namespace freqsynth {
 
@@ -76,32 +77,6 @@ inline constexpr float max_sample_magnitude = 1e36f;
 
 namespace detail {
 
-template <class T>
-struct SampleTraits {
-  static constexpr bool valid = false;
-};
-
-template <class T>
-requires std::is_arithmetic_v<T>
-struct SampleTraits<T> {
-  static constexpr bool valid = true;
-  static constexpr std::size_t channels = 1;
-  static void store(const T& value, float* out) { *out = static_cast<float>(value); }
-};
-
-template <class T, std::size_t N>
-requires std::is_arithmetic_v<T>
-struct SampleTraits<std::array<T, N>> {
-  static constexpr bool valid = N > 0;
-  static constexpr std::size_t channels = N;
-  static void store(const std::array<T, N>& value, float* out) {
-    for (std::size_t c = 0; c < N; ++c) out[c] = static_cast<float>(value[c]);
-  }
-};
-
-template <class F, class... Arguments>
-using SampleTraitsOf = SampleTraits<std::remove_cvref_t<std::invoke_result_t<F&, Arguments...>>>;
-
 /// Functions of whole numbers, which would cut off the fractions of a position. Braces accept no
 /// narrowing, so that a character, the smallest of integers, initialises nothing but an integer.
 template <class F>
@@ -114,15 +89,15 @@ concept TakesIntegers = requires(F& f, signed char c, double d) {
 
 }  // namespace detail
 
-/// A function of a position (x, y) in pixels that returns one number or a std::array of numbers.
+/// A function of a position (x, y) in pixels that returns a number or several, see SampleTraits.
 template <class F>
 concept ScalarSampler = std::invocable<F&, double, double> && !detail::TakesIntegers<F> &&
-                        detail::SampleTraitsOf<F, double, double>::valid;
+                        detail::SampleAccessOf<F, double, double>::valid;
 
-/// A function of a request that returns one number or a std::array of numbers.
+/// A function of a request that returns the same.
 template <class F>
 concept RequestSampler =
-    std::invocable<F&, const Request&> && detail::SampleTraitsOf<F, const Request&>::valid;
+    std::invocable<F&, const Request&> && detail::SampleAccessOf<F, const Request&>::valid;
 
 /// A function that fills in the values of many requests at once. Until it does they are NaN, so
 /// that a value that was forgotten counts as a bad sample.
@@ -134,7 +109,60 @@ concept BatchSampler = !std::invocable<F&, double, double> &&
 template <class F>
 concept Sampler = ScalarSampler<F> || RequestSampler<F> || BatchSampler<F>;
 
+/// See strided().
+template <class F>
+struct Strided {
+  std::size_t stride = 0;  ///< floats from a sample's first value to that of the next
+  F function;              ///< a batch sampler
+
+  /// Calls the function, for requests.size() * stride values.
+  void operator()(std::span<const Request> requests, std::span<float> values) {
+    function(requests, values);
+  }
+  /// The same.
+  void operator()(std::span<const Request> requests, std::span<float> values)
+      const requires std::invocable<const F&, std::span<const Request>, std::span<float>> {
+    function(requests, values);
+  }
+};
+
+/// A batch sampler that writes the values of request i at [i * stride, i * stride + channels): for
+/// vectors of four floats, say, stride is 4. Memory starts at a multiple of 16 bytes, at one of 32
+/// where stride is a multiple of 8, of 64 for one of 16. What lies between is not read.
+/// \param stride  at least the number of channels; 0: packed
+template <class F>
+[[nodiscard]] Strided<std::remove_cvref_t<F>> strided(std::size_t stride, F&& function) {
+  static_assert(BatchSampler<F>,
+                "freqsynth: only a batch sampler, a function (std::span<const Request>, "
+                "std::span<float>), has a stride");
+  return {stride, static_cast<F&&>(function)};
+}
+
 namespace detail {
+
+template <class S>
+inline constexpr bool is_strided = false;
+template <class F>
+inline constexpr bool is_strided<Strided<F>> = true;
+
+template <class F, class... Arguments>
+constexpr bool returns_sample() {
+  if constexpr (std::invocable<F&, Arguments...>) {
+    return SampleAccessOf<F, Arguments...>::valid;
+  } else {
+    return true;
+  }
+}
+
+template <class F, class... Arguments>
+constexpr bool returns_wrongly_described() {
+  if constexpr (std::invocable<F&, Arguments...>) {
+    using T = std::remove_cvref_t<std::invoke_result_t<F&, Arguments...>>;
+    return HasSampleTraits<T> && !DescribedSample<T>;
+  } else {
+    return false;
+  }
+}
 
 /// Refuses, with a sentence, what is no sampler.
 template <class F>
@@ -142,21 +170,44 @@ constexpr void check_sampler() {
   static_assert(!TakesIntegers<F>,
                 "freqsynth: the sampler takes whole numbers, but positions are fractions of "
                 "pixels: let it take (double x, double y)");
-  static_assert(TakesIntegers<F> || Sampler<F>,
-                "freqsynth: a sampler is a function (double x, double y) or (const Request&) that "
-                "returns a number or a std::array of numbers, or a function "
-                "(std::span<const Request>, std::span<float>) that writes them");
+  if constexpr (!TakesIntegers<F> && !Sampler<F>) {
+    constexpr bool described = !returns_wrongly_described<F, double, double>() &&
+                               !returns_wrongly_described<F, const Request&>();
+    constexpr bool sample =
+        returns_sample<F, double, double>() && returns_sample<F, const Request&>();
+    static_assert(described,
+                  "freqsynth: a SampleTraits has static constexpr std::size_t channels, at least "
+                  "1, and static float value(const T& sample, std::size_t channel)");
+    static_assert(sample || !described,
+                  "freqsynth: the sampler returns no sample: let it return a number, a std::array "
+                  "of numbers or a struct of floats, or specialise freqsynth::SampleTraits for its "
+                  "type");
+    static_assert(!sample || !described,
+                  "freqsynth: a sampler is a function (double x, double y) or (const Request&) "
+                  "that returns numbers, or a function (std::span<const Request>, "
+                  "std::span<float>) that writes them");
+  }
 }
 
 /// Number of values that a sampler returns, or `unknown` for a batch sampler, which does not say.
 template <Sampler S>
 constexpr std::size_t sampler_channels(std::size_t unknown) {
   if constexpr (ScalarSampler<S>) {
-    return SampleTraitsOf<S, double, double>::channels;
+    return SampleAccessOf<S, double, double>::channels;
   } else if constexpr (RequestSampler<S>) {
-    return SampleTraitsOf<S, const Request&>::channels;
+    return SampleAccessOf<S, const Request&>::channels;
   } else {
     return unknown;
+  }
+}
+
+/// Floats from a sample to the next, in the memory that a sampler writes to. 0: packed.
+template <class S>
+std::size_t sampler_stride(const S& sampler) {
+  if constexpr (is_strided<S>) {
+    return sampler.stride;
+  } else {
+    return 0;
   }
 }
 
@@ -166,15 +217,15 @@ template <class S>
 void call_sampler(S& sampler, std::span<const Request> requests, std::span<float> values,
                   std::size_t& done) {
   if constexpr (ScalarSampler<S>) {
-    using Traits = SampleTraitsOf<S, double, double>;
+    using Access = SampleAccessOf<S, double, double>;
     for (const Request& request : requests) {
-      Traits::store(sampler(request.x, request.y), values.data() + done * Traits::channels);
+      Access::store(sampler(request.x, request.y), values.data() + done * Access::channels);
       ++done;
     }
   } else if constexpr (RequestSampler<S>) {
-    using Traits = SampleTraitsOf<S, const Request&>;
+    using Access = SampleAccessOf<S, const Request&>;
     for (const Request& request : requests) {
-      Traits::store(sampler(request), values.data() + done * Traits::channels);
+      Access::store(sampler(request), values.data() + done * Access::channels);
       ++done;
     }
   } else {

@@ -108,10 +108,12 @@ class FREQSYNTH_API Synthesizer {
   void set_importance(std::span<const float> importance);
 
   /// Takes the values of requests in any order and split: channels() values each, those of
-  /// requests[i] at [i * channels(), (i + 1) * channels()).
+  /// requests[i] at [i * stride, i * stride + channels()).
+  /// \param stride  from values to the next ones, at least channels(); 0: packed, channels()
   /// \throws std::invalid_argument naming the id of a request that is not owed, or when the
   ///         sizes do not match; none of the values is taken then.
-  void deliver(std::span<const Request> requests, std::span<const float> values);
+  void deliver(std::span<const Request> requests, std::span<const float> values,
+               std::size_t stride = 0);
 
   /// Gives requests back without values; request() hands them out again.
   /// \throws std::invalid_argument like deliver().

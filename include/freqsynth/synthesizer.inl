@@ -231,8 +231,8 @@ FREQSYNTH_INLINE std::size_t Synthesizer::wave_size() const {
 }
 
 FREQSYNTH_INLINE void Synthesizer::deliver(std::span<const Request> requests,
-                                           std::span<const float> values) {
-  implementation_->with_engine([&](auto& engine) { engine.deliver(requests, values); });
+                                           std::span<const float> values, std::size_t stride) {
+  implementation_->with_engine([&](auto& engine) { engine.deliver(requests, values, stride); });
 }
 
 FREQSYNTH_INLINE void Synthesizer::give_back(std::span<const Request> requests) {

@@ -11,6 +11,7 @@
 #include <set>
 #include <span>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "freqsynth/synthesizer.h"
@@ -43,6 +44,7 @@ constexpr auto of_structs = [](double, double) {
   };
   return Rgb{};
 };
+constexpr auto of_strings = [](double, double) { return std::string(); };
 double plain_function(double x, double y) { return x + y; }
 
 static_assert(form_of<decltype(generic)>() == 1);
@@ -53,7 +55,10 @@ static_assert(form_of<decltype(of_request)>() == 10);
 static_assert(form_of<decltype(of_batch)>() == 100);
 static_assert(form_of<decltype(of_integers)>() == 0);
 static_assert(form_of<decltype(half_integer)>() == 0);
-static_assert(form_of<decltype(of_structs)>() == 0);
+static_assert(form_of<decltype(of_structs)>() == 1);
+static_assert(form_of<decltype(of_strings)>() == 0);
+static_assert(form_of<decltype(strided(4, of_batch))>() == 100);
+static_assert(form_of<const decltype(strided(4, of_batch))>() == 100);
 
 template <class F>
 FrequencyImage image_of(F&& sampler, std::size_t channels = 1) {

@@ -69,7 +69,8 @@ class Engine {
   /// Hands out up to out.size() positions. \throws std::bad_alloc, and nothing is handed out.
   std::size_t request(std::span<Request> out, Wait wait = Wait::no);
   /// Takes values. \throws std::invalid_argument, and none is taken.
-  void deliver(std::span<const Request> requests, std::span<const float> values);
+  void deliver(std::span<const Request> requests, std::span<const float> values,
+               std::size_t stride = 0);
   /// Takes requests back without values. \throws std::invalid_argument, and none is taken.
   void give_back(std::span<const Request> requests);
   /// Takes requests back that nobody will answer. \throws std::invalid_argument, and none is taken.

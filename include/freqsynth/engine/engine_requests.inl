@@ -75,17 +75,25 @@ void Engine<R, M>::claim(std::span<const Request> requests) {
 }
 
 template <Refiner R, BlockMeasure<R> M>
-void Engine<R, M>::deliver(std::span<const Request> requests, std::span<const float> values) {
+void Engine<R, M>::deliver(std::span<const Request> requests, std::span<const float> values,
+                           std::size_t stride) {
   const std::size_t channels = blocks_.refiner().channels() + nearest_.channels();
-  if (values.size() != requests.size() * channels) {
+  const bool packed = stride == 0 || stride == channels;
+  if (packed) stride = channels;
+  detail::require(stride >= channels, "stride", static_cast<double>(stride),
+                  "at least the number of channels");
+  // What would lie behind the last values may be there or not.
+  const std::size_t most = requests.size() * stride;
+  const std::size_t least = requests.empty() ? 0 : most - stride + channels;
+  if (values.size() < least || values.size() > most) {
     detail::refuse(std::to_string(values.size()) + " values for " +
                    std::to_string(requests.size()) + " requests of " + std::to_string(channels) +
-                   " channels");
+                   " channels" + (packed ? "" : ", each " + std::to_string(stride) + " apart"));
   }
   const std::lock_guard lock(mutex_);
   claim(requests);
   for (std::size_t i = 0; i < requests.size(); ++i) {
-    wave_.deliver(requests[i].slot, values.data() + i * channels);
+    wave_.deliver(requests[i].slot, values.data() + i * stride);
   }
   end_of_delivery();
 }

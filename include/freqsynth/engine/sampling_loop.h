@@ -34,7 +34,8 @@ class SamplerRef {
   SamplerRef(S& sampler, std::size_t channels)
       : sampler_(const_cast<void*>(static_cast<const void*>(&sampler))),
         call_(&call<S>),
-        channels_(sampler_channels<S>(channels)) {}
+        channels_(sampler_channels<S>(channels)),
+        stride_(sampler_stride(sampler)) {}
 
   /// See call_sampler().
   void operator()(std::span<const Request> requests, std::span<float> values,
@@ -43,6 +44,8 @@ class SamplerRef {
   }
   /// Values per sample.
   [[nodiscard]] std::size_t channels() const { return channels_; }
+  /// See sampler_stride().
+  [[nodiscard]] std::size_t stride() const { return stride_; }
 
  private:
   template <class S>
@@ -53,7 +56,7 @@ class SamplerRef {
 
   void* sampler_;
   void (*call_)(void*, std::span<const Request>, std::span<float>, std::size_t&);
-  std::size_t channels_;
+  std::size_t channels_, stride_;
 };
 
 /// A reference to an executor.

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "freqsynth/basis/aligned.h"
 #include "freqsynth/basis/check.h"
 #include "freqsynth/engine/sampling_loop.h"
 
@@ -34,12 +35,13 @@ template <class E>
 class Batch {
  public:
   /// \param concurrency  parts that are at work at the same time, unless the executor lies
-  Batch(E& engine, std::size_t channels, std::size_t most, std::size_t most_parts,
+  /// \param stride       floats from the values of a request to those of the next
+  Batch(E& engine, std::size_t stride, std::size_t most, std::size_t most_parts,
         std::size_t concurrency)
       : engine_(engine),
-        channels_(channels),
+        stride_(stride),
         requests_(most),
-        values_(most * channels),
+        values_(most * stride),
         parts_(std::max<std::size_t>(most_parts, 1)),
         expected_at_work_(std::clamp<std::size_t>(concurrency, 1, parts_.size())) {}
   Batch(const Batch&) = delete;
@@ -69,7 +71,7 @@ class Batch {
     }
     try {
       sampler(std::span<const Request>(requests_).subspan(first, size),
-              std::span<float>(values_).subspan(first * channels_, size * channels_),
+              std::span<float>(values_).subspan(first * stride_, size * stride_),
               parts_[index].done);
     }
     FREQSYNTH_RETHROW_CANCELLATION
@@ -87,7 +89,8 @@ class Batch {
       const std::size_t done = parts_[i].done;
       const auto part = std::span<const Request>(requests_).subspan(first, size);
       engine_.deliver(part.first(done),
-                      std::span<const float>(values_).subspan(first * channels_, done * channels_));
+                      std::span<const float>(values_).subspan(first * stride_, done * stride_),
+                      stride_);
       if (done < size) engine_.give_back(part.subspan(done));
       if (parts_[i].error && !error) error = parts_[i].error;
     }
@@ -140,9 +143,9 @@ class Batch {
   [[nodiscard]] std::size_t first_of(std::size_t part) const { return part * count_ / part_count_; }
 
   E& engine_;
-  std::size_t channels_;
+  std::size_t stride_;
   std::vector<Request> requests_;
-  std::vector<float> values_;
+  AlignedVector<float> values_;
   std::vector<Part> parts_;
   std::size_t expected_at_work_;
   std::atomic<std::size_t> at_work_{0};
@@ -159,6 +162,9 @@ RunReport run_loop(E& engine, std::size_t channels, const SamplerRef& sampler, c
     refuse("the sampler returns " + std::to_string(sampler.channels()) + " values for " +
            std::to_string(channels) + " channels");
   }
+  const std::size_t stride = sampler.stride() == 0 ? channels : sampler.stride();
+  require(stride >= channels, "stride", static_cast<double>(stride),
+          "at least the number of channels");
   if (batch == 0) refuse("batch is 0");
   engine.set_stop(stop);
   const auto begin = Clock::now();
@@ -175,7 +181,7 @@ RunReport run_loop(E& engine, std::size_t channels, const SamplerRef& sampler, c
   const std::size_t most = std::min(batch, engine.wave_size());
   const std::size_t most_parts =
       concurrency <= 1 ? 1 : std::min(most, 4 * std::min(concurrency, most));
-  Batch<E> requests(engine, channels, most, most_parts, concurrency);
+  Batch<E> requests(engine, stride, most, most_parts, concurrency);
   bool told = false;  // that it has come to its end
   while (const std::size_t parts = requests.fill()) {
     const auto task = [&](std::size_t index) { requests.answer(sampler, index); };

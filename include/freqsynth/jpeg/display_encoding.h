@@ -60,6 +60,9 @@ FREQSYNTH_API void check_display_channels(std::size_t channels, std::size_t samp
 /// A batch sampler that encodes the values of another sampler of either form, with 1 or 3 channels.
 template <Sampler S>
 class DisplaySampler {
+  static_assert(!detail::is_strided<std::remove_cv_t<S>>,
+                "freqsynth: a DisplaySampler takes no strided() sampler");
+
  public:
   /// \param channels  1 (a linear luminance) or 3 (linear RGB)
   /// \throws std::invalid_argument when channels or the encoding is out of range, or the sampler
