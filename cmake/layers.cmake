@@ -53,6 +53,7 @@ set(FREQSYNTH_LAYERS
   "engine/block_measure.h|the measures: the paper's change, and residuals|4.4"
   "engine/block_choice.h|which blocks are next|4.4"
   "engine/wave.h|positions that were chosen together, and the values that came for them|"
+  "engine/state_archive.h|what is saved of each part of an engine|"
   "engine/engine.h|all of these as one engine: request, deliver|4"
   "engine/sampling_loop.h|the loop behind `run`|"
   "image/butterworth.h|the low-pass filter against what aliasing is left|4.5"
@@ -88,5 +89,6 @@ set(FREQSYNTH_LAYERS
   "jpeg/jpeg.h|component `freqsynth::jpeg`: quantised blocks to the bytes of a JPEG file and back, with libjpeg|2"
   "jpeg/jpeg_file.h|the same component: to a file and back|2"
   "synthesizer.h|the engine as hosts use it: request, deliver, run, images|4"
+  "synthesizer_file.h|engines in files, to go on after an interruption, compiled only|"
   "freqsynth.h|what a host needs|"
 )

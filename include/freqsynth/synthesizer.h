@@ -15,6 +15,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "freqsynth/basis/byte_stream.h"
 #include "freqsynth/basis/config.h"
 #include "freqsynth/basis/shared_list.h"
 #include "freqsynth/engine/block_grid.h"
@@ -84,6 +85,13 @@ class FREQSYNTH_API Synthesizer {
  public:
   /// \throws std::invalid_argument naming the field and the value when a setting is out of range.
   explicit Synthesizer(SynthesisSettings settings);
+  /// Goes on where another one was saved, see save(), to the bit: as if that one had been given
+  /// back what it was owed. Requests that were owed are handed out again, as they were. The stop
+  /// rule holds as if it were set now: StopRule::seconds count anew, and what was cancelled is not.
+  /// \param settings  those that it was made with
+  /// \throws std::runtime_error naming the reason: when these are other bytes, damaged, too few, of
+  ///         another format or of other settings; what the other constructor and `saved` throw.
+  Synthesizer(SynthesisSettings settings, ByteSource saved);
   ~Synthesizer();
   Synthesizer(const Synthesizer&) = delete;
   Synthesizer& operator=(const Synthesizer&) = delete;
@@ -184,6 +192,18 @@ class FREQSYNTH_API Synthesizer {
   [[nodiscard]] SynthesisStats stats() const;
   /// The first bad samples, at most 1000; stats() counts all.
   [[nodiscard]] std::vector<BadSample> bad_samples() const;
+
+  /// Saves all that is known, also within a wave: values that were delivered, requests that are
+  /// owed, the stop rule. The same bytes on all machines, with check values; of the settings what
+  /// tells them from others, of the shared list nothing. A file of them is written by save_file(),
+  /// see synthesizer_file.h.
+  ///
+  /// Other members wait meanwhile. A sink that is slow should get its bytes from memory.
+  /// \param sink  takes the bytes, some at a time; must not call the engine
+  /// \throws what `sink` throws.
+  void save(ByteSink sink) const;
+  /// Saves it into memory.
+  [[nodiscard]] std::vector<std::byte> save() const;
 
  private:
   RunReport run_erased(const detail::SamplerRef& sampler, const StopRule& stop,

@@ -337,3 +337,5 @@ FREQSYNTH_INLINE std::vector<BadSample> Synthesizer::bad_samples() const {
 }
 
 }  // namespace freqsynth
+
+#include "freqsynth/synthesizer_saved.inl"

@@ -96,14 +96,18 @@ class FREQSYNTH_API StateWriter {
   /// A number.
   template <Number T>
   void number(const T& number) {
-    array(std::span<const T>(&number, 1));
+    put(std::span<const T>(&number, 1));
   }
   void number(const bool& value) { number(static_cast<std::uint8_t>(value ? 1 : 0)); }
   /// A number of things.
   void count(const std::size_t& count) { number(std::uint64_t{count}); }
-  /// Numbers, as many as the reader knows.
+  /// Numbers, as many as the reader knows, one after the other.
+  template <class Numbers>
+  void array(const Numbers& numbers) {
+    put(std::span<const typename Numbers::value_type>(numbers));
+  }
   template <Number T>
-  void array(std::span<const T> numbers) {
+  void put(std::span<const T> numbers) {
     length_ += numbers.size_bytes();
     if (counting_) return;
     while (!numbers.empty()) {
@@ -113,10 +117,6 @@ class FREQSYNTH_API StateWriter {
       used_ += some * sizeof(T);
       numbers = numbers.subspan(some);
     }
-  }
-  template <Number T, class A>
-  void array(const std::vector<T, A>& numbers) {
-    array(std::span<const T>(numbers));
   }
   /// Numbers and how many there are, `most` at most.
   template <Number T>
@@ -181,7 +181,7 @@ class FREQSYNTH_API StateReader {
   /// A number.
   template <Number T>
   void number(T& number) {
-    array(std::span<T>(&number, 1));
+    take(std::span<T>(&number, 1));
   }
   void number(bool& value) {
     std::uint8_t byte = 0;
@@ -191,9 +191,13 @@ class FREQSYNTH_API StateReader {
   }
   /// A number of things.
   void count(std::size_t& count);
-  /// Numbers, as many as there are to be.
+  /// Numbers, as many as there are to be, one after the other.
+  template <class Numbers>
+  void array(Numbers&& numbers) {
+    take(std::span<typename std::remove_cvref_t<Numbers>::value_type>(numbers));
+  }
   template <Number T>
-  void array(std::span<T> numbers) {
+  void take(std::span<T> numbers) {
     while (!numbers.empty()) {
       const std::size_t most = available(sizeof(T)) / sizeof(T);
       const std::size_t some = numbers.size() < most ? numbers.size() : most;
@@ -201,10 +205,6 @@ class FREQSYNTH_API StateReader {
       used_ += some * sizeof(T);
       numbers = numbers.subspan(some);
     }
-  }
-  template <Number T, class A>
-  void array(std::vector<T, A>& numbers) {
-    array(std::span<T>(numbers));
   }
   /// Numbers and how many there are, `most` at most.
   template <Number T>
@@ -234,12 +234,16 @@ class FREQSYNTH_API StateReader {
   /// Refuses a section that holds what it cannot.
   void check(bool good) {
     if (!good) [[unlikely]] {
-      fail("holds what it cannot");
+      fail_section("holds what it cannot");
     }
   }
   /// Refuses what is read: a sentence that the saved thing is the subject of. Says rather that the
   /// section is damaged, when it is.
   [[noreturn]] void fail(const std::string& what);
+  /// The same, naming the section.
+  [[noreturn]] void fail_section(const std::string& what) {
+    fail(what + ", in section " + section_);
+  }
 
   /// Makes sure that it ends here.
   void finish();

@@ -56,15 +56,15 @@ FREQSYNTH_INLINE std::uint32_t crc32c(std::uint32_t before, std::span<const std:
 
 FREQSYNTH_INLINE StateWriter::StateWriter(const ByteSink& sink, const ArchiveKind& kind)
     : sink_(sink), buffer_(buffer_size) {
-  array(std::span<const std::uint8_t>(archive_magic));
-  array(std::span<const char>(kind.tag, 4));
+  array(archive_magic);
+  put(std::span<const char>(kind.tag, 4));
   number(kind.version);
   put_check();
 }
 
 FREQSYNTH_INLINE void StateWriter::open(const char* tag) {
   const std::uint64_t length = length_;
-  array(std::span<const char>(tag, 4));
+  put(std::span<const char>(tag, 4));
   number(length);
   put_check();
 }
@@ -164,13 +164,13 @@ FREQSYNTH_INLINE void StateReader::open(const char* tag) {
 }
 
 FREQSYNTH_INLINE void StateReader::close() {
-  if (remaining() != 0) fail("is too long");
+  if (remaining() != 0) fail_section("is too long");
   if (!check_value_fits()) refuse_damaged();
 }
 
 FREQSYNTH_INLINE void StateReader::fill(std::size_t least) {
   const std::size_t kept = filled_ - used_;
-  if (kept + remaining_ < least) fail("is too short");
+  if (kept + remaining_ < least) fail_section("is too short");
   if (kept > 0) std::memmove(buffer_.data(), buffer_.data() + used_, kept);
   used_ = 0;
   filled_ = kept;
@@ -191,7 +191,7 @@ FREQSYNTH_INLINE void StateReader::fail(const std::string& what) {
     used_ = filled_;
   }
   if (!check_value_fits()) refuse_damaged();
-  refuse(what + ", in section " + section_);
+  refuse(what);
 }
 
 FREQSYNTH_INLINE void StateReader::count(std::size_t& count) {

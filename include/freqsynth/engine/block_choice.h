@@ -69,6 +69,8 @@ class BlockChoice {
   void revise_all(const BlockView<R>& view);
 
  private:
+  friend struct StateArchive;
+
   [[nodiscard]] float priority_of(const BlockView<R>& view, std::uint32_t block) const;
 
   M measure_;
@@ -107,7 +109,9 @@ float BlockChoice<R, M>::priority_of(const BlockView<R>& view, std::uint32_t blo
   if (!wanted(block)) return 0;
   // A sample that has no usable value is worth nothing.
   const float factor = factors_[block] * view.blocks.usable_share(block);
-  return std::min(measure_.priority(view, block, factor), most_priority);
+  const float priority = measure_.priority(view, block, factor);
+  // Also where a state that was loaded is no number.
+  return priority < most_priority ? priority : most_priority;
 }
 
 template <Refiner R, BlockMeasure<R> M>

@@ -128,6 +128,7 @@ class ChangeMeasure {
   [[nodiscard]] bool in_units() const { return steering_.linear(); }
 
  private:
+  friend struct StateArchive;
   template <Refiner R>
   void absorb_steered(const BlockStore<R>& blocks, std::uint32_t block, float change) {
     float& variation = variations_[block];
@@ -210,6 +211,7 @@ class ResidualBook {
   }
 
  private:
+  friend struct StateArchive;
   std::vector<float> residuals_;
   std::vector<float> told_;
   double sum_ = 0;
@@ -279,6 +281,7 @@ class ResidualMeasure {
   [[nodiscard]] bool in_units() const { return steering_.linear(); }
 
  private:
+  friend struct StateArchive;
   template <Refiner R>
   void note_steered(const BlockView<R>& view, std::uint32_t block) {
     book_.note(block, steering_.residual(view.blocks, block, [&](std::size_t c) {

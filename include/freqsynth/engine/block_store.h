@@ -127,6 +127,8 @@ class BlockStore {
   void watch(detail::StateKeeper* keeper) const { keeper_ = keeper; }
 
  private:
+  friend struct StateArchive;
+
   /// To be called before a state changes, wherever that is.
   void keep(std::size_t block) const {
     if (keeper_) [[unlikely]] {

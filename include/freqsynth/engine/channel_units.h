@@ -72,6 +72,8 @@ class ChannelUnits {
   [[nodiscard]] std::span<const float> weights() const { return weights_; }
 
  private:
+  friend struct StateArchive;
+
   static constexpr int most_exponent = 50;
   static_assert(most_state_value == 0x1p50f);
   static constexpr std::uint32_t few = 4;

@@ -41,6 +41,8 @@ class EdgeCache {
   [[nodiscard]] std::size_t waiting() const { return waiting_; }
 
  private:
+  friend struct StateArchive;
+
   static constexpr std::uint32_t none = 0xffffffffu;
   struct Edge {
     std::uint32_t head = none, tail = none;

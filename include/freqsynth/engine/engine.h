@@ -113,6 +113,20 @@ class Engine {
   template <class Use>
   auto with_snapshot(Use&& use) const;
 
+  /// Saves all that is known, requests that are owed included, into an archive; see StateArchive.
+  template <class Archive>
+  void save(Archive& archive) const {
+    const std::lock_guard lock(mutex_);
+    list_parts(archive, *this);
+  }
+  /// Loads it, into an engine that is as new. What was owed is handed out again. When it throws,
+  /// the engine must not be used.
+  template <class Archive>
+  void load(Archive& archive) {
+    const std::lock_guard lock(mutex_);
+    list_parts(archive, *this);
+  }
+
  private:
   static constexpr std::size_t most_bad_reported = 1000;
   /// A sampler that has never had a usable value, in every block and in so many samples, is not
@@ -128,6 +142,10 @@ class Engine {
   std::optional<StopReason> end();
   [[nodiscard]] StopMeter::Shares shares() const;
   void end_of_delivery();
+  template <class Archive, class Self>
+  static void list_parts(Archive& archive, Self& self);
+  template <class Archive, class Self>
+  static void list_wave(Archive& archive, Self& self);
   std::optional<StopReason> prepare_wave();
   std::optional<StopReason> choose_wave();
   void reserve(std::size_t most);

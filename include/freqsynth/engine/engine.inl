@@ -7,6 +7,7 @@
 #include "freqsynth/engine/engine_choice.inl"
 #include "freqsynth/engine/engine_end.inl"
 #include "freqsynth/engine/engine_requests.inl"
+#include "freqsynth/engine/engine_saved.inl"
 
 namespace freqsynth {
 

@@ -39,6 +39,8 @@ class Exploration {
   [[nodiscard]] double least() const { return least_; }
 
  private:
+  friend struct StateArchive;
+
   double exponent_;
   std::size_t blocks_;
   double least_ = 0;

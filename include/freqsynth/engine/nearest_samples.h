@@ -34,6 +34,8 @@ class NearestSamples {
   [[nodiscard]] std::vector<float> pixels(std::size_t channel) const;
 
  private:
+  friend struct StateArchive;
+
   struct Kept {
     float value = 0;
     float distance = std::numeric_limits<float>::max();  // squared; as large as this: no sample

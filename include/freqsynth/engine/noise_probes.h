@@ -40,6 +40,8 @@ class NoiseProbes {
   }
 
  private:
+  friend struct StateArchive;
+
   /// The sample, counted from 0.
   [[nodiscard]] static std::uint64_t place(std::uint64_t number) {
     return (number - 1) * (number - 1) + detail::mix_bits(number) % (2 * number - 1);

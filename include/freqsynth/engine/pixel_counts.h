@@ -56,6 +56,8 @@ class PixelCounts {
   }
 
  private:
+  friend struct StateArchive;
+
   static constexpr std::size_t most_narrow = std::numeric_limits<std::uint16_t>::max();
 
   /// Of a pixel's counter.

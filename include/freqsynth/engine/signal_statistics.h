@@ -33,6 +33,8 @@ class UsualRange {
   void visit_kept(Visitor&& visit) const;
 
  private:
+  friend struct StateArchive;
+
   static constexpr std::size_t few = 4;
   static constexpr float none = std::numeric_limits<float>::max() / 2;
 
@@ -87,6 +89,8 @@ class SignalStatistics {
   [[nodiscard]] float most_variance(std::span<const float> weights) const;
 
  private:
+  friend struct StateArchive;
+
   struct Sums {
     double values = 0, squares = 0;
     std::uint64_t count = 0;  // with those that are kept aside

@@ -78,6 +78,8 @@ class Steering {
   }
 
  private:
+  friend struct StateArchive;
+
   // The median of what blocks show is so many times the level below which relative errors are not.
   static constexpr double levels_of_median = 64;
 

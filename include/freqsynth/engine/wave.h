@@ -108,6 +108,8 @@ class Wave {
   void clear();
 
  private:
+  friend struct StateArchive;
+
   enum class State : std::uint8_t { waiting, owed, claimed, delivered, abandoned };
 
   void count(std::uint32_t slot) {

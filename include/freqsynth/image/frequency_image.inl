@@ -55,7 +55,7 @@ void FrequencyImage::archive(Archive& archive, Self& self) {
         size.blocks_x = grid.blocks_x;
         size.blocks_y = grid.blocks_y;
       } catch (const std::invalid_argument&) {
-        archive.fail("has sizes that no image has");
+        archive.fail_section("has sizes that no image has");
       }
     }
   });

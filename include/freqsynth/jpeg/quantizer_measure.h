@@ -78,6 +78,8 @@ class QuantizerMeasure {
   [[nodiscard]] static bool in_units() { return true; }
 
  private:
+  friend struct StateArchive;
+
   /// Samples of a block, or as many as one of 8 x 8 pixels has with the same number per pixel.
   template <Refiner R>
   [[nodiscard]] static std::size_t per_whole_block(const BlockView<R>& view, std::uint32_t block) {

@@ -46,6 +46,8 @@ class GapLog {
   [[nodiscard]] std::vector<Gap> of(std::size_t block, std::size_t channel) const;
 
  private:
+  friend struct StateArchive;
+
   static constexpr std::uint32_t none = 0xffffffffu;
   struct Entry {
     Gap gap;

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+// What is saved of an engine.
+#pragma once
+
+#include "freqsynth/engine/state_archive.h"
+
+namespace freqsynth {
+
+template <Refiner R, BlockMeasure<R> M>
+template <class Archive, class Self>
+void Engine<R, M>::list_parts(Archive& archive, Self& self) {
+  archive.section("ENGN", [&] {
+    std::size_t wave_size = self.wave_size_;
+    archive.count(wave_size);
+    archive.check(wave_size == self.wave_size_);
+    archive.number(self.noise_);
+    archive.check(self.noise_ <= Noise::present);
+    archive.number(self.any_usable_);
+    archive.number(self.patience_);
+    StateArchive::stats(archive, self.stats_);
+    StateArchive::stop(archive, self.stop_);
+    StateArchive::bad_samples(archive, self.bad_, most_bad_reported);
+  });
+  archive.section("UNIT", [&] { StateArchive::units(archive, self.units_); });
+  if constexpr (Archive::loading) {
+    self.blocks_.use_units(self.units_.exponents(), self.units_.weights());
+  }
+  archive.section("BLKS", [&] {
+    StateArchive::counts(archive, self.blocks_);
+    std::uint64_t absorbed = 0;
+    for (const std::uint32_t count : self.blocks_.counts()) absorbed += count;
+    archive.check(absorbed == self.stats_.absorbed);
+    if constexpr (Archive::loading) StateArchive::check_next(archive, self.grid_, self.blocks_);
+  });
+  archive.section("STAT", [&] { StateArchive::states(archive, self.blocks_); });
+  archive.section("EDGE",
+                  [&] { StateArchive::edges(archive, self.cache_, self.grid_, self.blocks_); });
+  archive.section("SIGN", [&] { StateArchive::signal(archive, self.signal_); });
+  archive.section("CHOI", [&] {
+    StateArchive::choice(archive, self.choice_);
+    bool others = self.factors_.has_value();
+    archive.number(others);
+    if constexpr (Archive::loading) {
+      self.shares_ = self.choice_.shares();
+      if (others) self.factors_.emplace(self.grid_.size());
+    }
+    if (others) StateArchive::factors(archive, *self.factors_);
+    StateArchive::exploration(archive, self.exploration_);
+  });
+  if constexpr (Archive::loading) {
+    self.signal_.use_units(self.units_.exponents(), self.units_.weights());
+    self.choice_.use_units(self.view(), 1);
+  }
+  archive.section("PIXL", [&] { StateArchive::pixels(archive, self.pixels_); });
+  archive.section("NEAR", [&] { StateArchive::nearest(archive, self.nearest_); });
+  archive.section("WAVE", [&] { list_wave(archive, self); });
+  if constexpr (Archive::loading) self.meter_.begin(self.stop_.seconds, self.shares());
+}
+
+/// The wave is planned anew, from the blocks that were chosen.
+template <Refiner R, BlockMeasure<R> M>
+template <class Archive, class Self>
+void Engine<R, M>::list_wave(Archive& archive, Self& self) {
+  std::vector<std::uint32_t> chosen(self.touched_.members().begin(), self.touched_.members().end());
+  archive.list(chosen, self.grid_.size());
+  std::vector<std::uint32_t> repeated;
+  for (std::size_t i = self.wave_.samples(); i < self.wave_.size(); ++i) {
+    repeated.push_back(self.wave_.slot(i).repeated);
+  }
+  if constexpr (Archive::loading) {
+    if (!chosen.empty()) self.reserve(chosen.size());
+    for (const std::uint32_t block : chosen) {
+      archive.check(block < self.grid_.size() && !self.touched_.contains(block) &&
+                    !self.blocks_.full(block));
+      self.choose(block);
+    }
+  }
+  archive.list(repeated, NoiseProbes::most(self.wave_.samples()));
+  if constexpr (Archive::loading) {
+    for (std::size_t i = 0; i < repeated.size(); ++i) {
+      archive.check(repeated[i] < self.wave_.samples() &&
+                    (i == 0 || repeated[i] > repeated[i - 1]));
+      self.wave_.repeat(repeated[i]);
+    }
+  }
+  StateArchive::wave(archive, self.wave_);
+  StateArchive::probes(archive, self.probes_, self.stats_.samples + self.wave_.samples());
+  if constexpr (Archive::loading) {
+    for (std::uint32_t i = 0; i < self.wave_.size(); ++i) {
+      Wave::Slot& slot = self.wave_.slot(i);
+      if (slot.ordinal != Wave::Slot::no_ordinal) slot.id = self.make_request(i).id;
+    }
+  }
+}
+
+}  // namespace freqsynth
