@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -93,7 +94,7 @@ void save_and_load(std::unique_ptr<Synthesizer>& engine) {
 }
 
 TEST(SavedSynthesis, EveryWaveGoesOnAsIfNothingHadHappened) {
-  for (const std::size_t wave : {1, 3, 0}) {
+  for (const std::size_t wave : std::array<std::size_t, 3>{1, 3, 0}) {
     for (const Noise noise : {Noise::none, Noise::automatic, Noise::present}) {
       RandomSynthesis synthesis(17);
       synthesis.settings = helpers::settings_of(27, 18, 2, wave);
