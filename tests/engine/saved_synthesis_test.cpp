@@ -36,9 +36,11 @@ using testing_support::Bytes;
 /// Every bit of what a host can see, images aside.
 std::vector<std::uint64_t> numbers_of(const Synthesizer& engine) {
   const SynthesisStats stats = engine.stats();
-  std::vector<std::uint64_t> numbers{stats.samples,  stats.probes,      stats.differing_probes,
-                                     stats.absorbed, stats.bad_samples, stats.ignored_bad_samples,
-                                     stats.waves,    stats.blocks,      engine.noisy() ? 1u : 0u};
+  std::vector<std::uint64_t> numbers{stats.samples,          stats.probes,
+                                     stats.differing_probes, stats.absorbed,
+                                     stats.bad_samples,      stats.ignored_bad_samples,
+                                     stats.abandoned,        stats.waves,
+                                     stats.blocks,           engine.noisy() ? 1u : 0u};
   for (const BadSample& one : engine.bad_samples()) {
     numbers.push_back(std::bit_cast<std::uint64_t>(one.x));
     numbers.push_back(std::bit_cast<std::uint64_t>(one.y));

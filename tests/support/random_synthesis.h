@@ -21,9 +21,10 @@ namespace helpers {
 struct RandomSynthesis {
   freqsynth::SynthesisSettings settings;
   freqsynth::StopRule stop;
-  float scale = 1;      // of the values
-  float noise = 0;      // of these, relative
-  unsigned bad_of = 0;  // of so many samples one has no usable value; 0: none
+  float scale = 1;          // of the values
+  float noise = 0;          // of these, relative
+  unsigned bad_of = 0;      // of so many samples one has no usable value; 0: none
+  unsigned abandon_of = 0;  // of so many requests one is never answered; 0: none
   float level = 0;
 
   explicit RandomSynthesis(unsigned number);
@@ -94,6 +95,7 @@ inline RandomSynthesis::RandomSynthesis(unsigned number) {
   if (chance(0.4)) noise = static_cast<float>(random.uniform(0, 0.5));
   if (chance(0.3)) level = static_cast<float>(random.uniform(-20, 20));
   if (chance(0.4)) bad_of = 2 + static_cast<unsigned>(random.below(40));
+  if (chance(0.2)) abandon_of = 5 + static_cast<unsigned>(random.below(90));
   if (chance(0.2)) {
     priority.steer = Steer::linear;
     settings.quantization.emplace();
@@ -146,11 +148,17 @@ class RandomHost {
 
   void deliver(freqsynth::Synthesizer& engine, std::span<const freqsynth::Request> requests) {
     const std::size_t channels = engine.channels();
-    std::vector<float> values(requests.size() * channels);
-    for (std::size_t i = 0; i < requests.size(); ++i) {
-      synthesis_.sample(requests[i], std::span(values).subspan(i * channels, channels));
+    std::vector<freqsynth::Request> answered, abandoned;
+    for (const freqsynth::Request& one : requests) {
+      const bool never = synthesis_.abandon_of != 0 && one.id % synthesis_.abandon_of == 3;
+      (never ? abandoned : answered).push_back(one);
     }
-    engine.deliver(requests, values);
+    std::vector<float> values(answered.size() * channels);
+    for (std::size_t i = 0; i < answered.size(); ++i) {
+      synthesis_.sample(answered[i], std::span(values).subspan(i * channels, channels));
+    }
+    engine.abandon(abandoned);
+    engine.deliver(answered, values);
   }
 
  private:
