@@ -48,6 +48,7 @@ void check_outputs(const Options& options) {
   }
   if (!options.density.empty()) check_picture(options.density, options.width, options.height, 1);
   if (!options.stats.empty()) check_writable(options.stats);
+  if (!options.checkpoint.empty()) check_writable(options.checkpoint);
   if (!options.frames.empty()) prepare_frames(options);
 }
 

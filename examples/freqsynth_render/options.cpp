@@ -44,6 +44,7 @@ struct Texts {
   std::string size, spp, reference, wave, seed, threads, terms_every, cutoff, order, pixel_filter;
   std::string scale, channels, zone_frequency, average, steer;
   std::string quality, until_quality, subsampling, tolerance;
+  std::string checkpoint_every;
   bool no_butterworth = false;
   bool help = false;
 };
@@ -89,6 +90,15 @@ void describe_method(OIIO::ArgParse& parser, Options& options, Texts& texts) {
           "display: as seen in sRGB (linear)");
 }
 
+void describe_checkpoints(OIIO::ArgParse& parser, Options& options, Texts& texts) {
+  parser.separator("Long runs:");
+  parser.arg("--checkpoint %s:FILE", &options.checkpoint)
+      .help("Keeps the state of the run in a file: now and then, when interrupted, and at the end");
+  parser.arg("--checkpoint-every %s:SECONDS", &texts.checkpoint_every).help("How often (60)");
+  parser.arg("--resume %s:FILE", &options.resume)
+      .help("Goes on from such a file, with the same options; the result is the same to the bit");
+}
+
 void describe_jpeg(OIIO::ArgParse& parser, Options& options, Texts& texts) {
   parser.separator("JPEG files:");
   parser.arg("--quality %s:Q", &texts.quality)
@@ -119,6 +129,7 @@ void read_method(const Texts& texts, Options& options) {
   read_positive("--order", texts.order, options.butterworth.order);
   options.butterworth.enabled = !texts.no_butterworth;
   read_positive("--scale", texts.scale, options.scale);
+  read_positive("--checkpoint-every", texts.checkpoint_every, options.checkpoint_every);
   if (!texts.zone_frequency.empty()) {
     read_positive("--zone-frequency", texts.zone_frequency, options.zone_frequency.emplace());
   }
@@ -165,6 +176,11 @@ void check_combinations(const Texts& texts, const Options& options) {
   refuse_if(options.reference != 0 && (has_frames || !options.density.empty()),
             "--reference: has no --frames and no --density");
   refuse_if(options.reference != 0 && options.scale != 1, "--reference: has no --scale");
+  const bool long_run = !options.checkpoint.empty() || !options.resume.empty();
+  refuse_if(long_run && (options.reference != 0 || has_frames),
+            "--checkpoint, --resume: have no --frames and no --reference");
+  refuse_if(!texts.checkpoint_every.empty() && options.checkpoint.empty(),
+            "--checkpoint-every: needs --checkpoint");
 }
 
 }  // namespace
@@ -178,6 +194,7 @@ std::optional<Options> parse_options(int argc, const char** argv) {
   parser.add_help(false).exit_on_error(false);
   describe_outputs(parser, options, texts);
   describe_method(parser, options, texts);
+  describe_checkpoints(parser, options, texts);
   describe_jpeg(parser, options, texts);
   if (parser.parse_args(argc, argv) < 0) throw UsageError(parser.geterror());
   if (texts.help) {

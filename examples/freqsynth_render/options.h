@@ -25,11 +25,14 @@ struct Options {
   std::size_t height = 512;
   double samples_per_pixel = 1;  // infinite: until the target is met
   std::string output;
-  std::string density;        // empty: not wanted
-  std::string frames;         // a folder; empty: not wanted
-  std::string stats;          // empty: not wanted
-  std::size_t reference = 0;  // jittered samples per pixel; 0: freqsynth
-  std::size_t wave = 0;       // 0: the library's choice
+  std::string density;           // empty: not wanted
+  std::string frames;            // a folder; empty: not wanted
+  std::string stats;             // empty: not wanted
+  std::string checkpoint;        // a file for the state of the run; empty: not wanted
+  double checkpoint_every = 60;  // seconds
+  std::string resume;            // a file to go on from; empty: from the start
+  std::size_t reference = 0;     // jittered samples per pixel; 0: freqsynth
+  std::size_t wave = 0;          // 0: the library's choice
   std::uint64_t seed = 0;
   std::size_t threads = 0;  // 0: all
   double terms_every = 2.5;

@@ -18,6 +18,7 @@
 #include "freqsynth/basis/sample_sequence.h"
 #include "freqsynth/engine/thread_pool.h"
 #include "freqsynth/freqsynth.h"
+#include "freqsynth/synthesizer_file.h"
 #include "run_stats.h"
 
 namespace {
@@ -120,7 +121,9 @@ class Synthesis {
       : options_(options),
         scene_(scene),
         stops_(stops_of(options)),
-        engine_(settings_of(options)),
+        engine_(options.resume.empty()
+                    ? freqsynth::Synthesizer(settings_of(options))
+                    : freqsynth::load_synthesizer(options.resume, settings_of(options))),
         pool_(options.threads) {}
 
   /// \return whether it came to its end, and was not interrupted
@@ -129,6 +132,7 @@ class Synthesis {
     for (std::size_t i = 0; i < stops_.size() && !interrupted; ++i) {
       reason_ = run_to(stops_[i]);
       interrupted = reason_ == freqsynth::StopReason::cancelled;
+      keep_state();
       write_at(stops_[i], interrupted);
     }
     if (!frames_.empty()) write_picture(contact_sheet_name(options_), contact_sheet(frames_, 4));
@@ -137,6 +141,24 @@ class Synthesis {
   }
 
  private:
+  /// Keeps the state of the run, where that is wanted. A disk that is full is no end of a long run.
+  void keep_state() {
+    if (options_.checkpoint.empty()) return;
+    try {
+      freqsynth::save_file(options_.checkpoint, engine_);
+    } catch (const std::runtime_error& error) {
+      std::fprintf(stderr, "freqsynth_render: --checkpoint: %s\n", error.what());
+    }
+    next_state_ = state_due();
+  }
+  [[nodiscard]] std::chrono::steady_clock::time_point state_due() const {
+    // More than a century is never.
+    const double seconds = std::min(options_.checkpoint_every, 4e9);
+    return std::chrono::steady_clock::now() +
+           std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+               std::chrono::duration<double>(seconds));
+  }
+
   /// Goes on to `stop` samples per pixel.
   freqsynth::StopReason run_to(double stop) {
     const std::size_t channels = engine_.settings().channels;
@@ -153,6 +175,9 @@ class Synthesis {
         bar_.show(share * stop / stops_.back());
       } else {
         bar_.count(samples_per_pixel(options_, engine_.stats()));
+      }
+      if (!options_.checkpoint.empty() && std::chrono::steady_clock::now() >= next_state_) {
+        keep_state();
       }
       return noted_interrupt() == 0;
     };
@@ -228,6 +253,7 @@ class Synthesis {
   freqsynth::Synthesizer engine_;
   freqsynth::ThreadPool pool_;
   ProgressBar bar_;
+  std::chrono::steady_clock::time_point next_state_ = state_due();
   Seconds seconds_;
   freqsynth::StopReason reason_ = freqsynth::StopReason::samples;
   std::vector<Picture> frames_;

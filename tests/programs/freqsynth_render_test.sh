@@ -24,6 +24,9 @@ expect_failure 2 "--terms-every 0.5" "${small[@]}" --terms-every 0.5 -o a.png
 expect_failure 2 "--pixel-filter tent" "${small[@]}" --pixel-filter tent -o a.png
 expect_failure 2 "--channels cmyk" "${small[@]}" --channels cmyk -o a.png
 expect_failure 2 "--threads 0" "${small[@]}" --threads 0 -o a.png
+expect_failure 2 "--checkpoint-every 0" "${small[@]}" --checkpoint a --checkpoint-every 0 -o a.png
+expect_failure 2 "--checkpoint-every" "${small[@]}" --checkpoint-every 5 -o a.png
+expect_failure 2 "--resume" "${small[@]}" --resume a --reference 4 -o a.png
 expect_failure 2 "cheese" --scene cheese -o a.png
 [[ ! -e a.png ]] || fail "a refused command wrote a picture"
 
