@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: MIT
 # Builds and runs the tests in build/. On Debian, installs what they need and is missing.
 #   tests/run.sh [--sanitize | --threads] [--clang] [arguments of ctest]
-#     --sanitize  the unit tests only, with AddressSanitizer and UndefinedBehaviorSanitizer
+#     --sanitize  the unit tests only, with AddressSanitizer and UndefinedBehaviorSanitizer; with clang++
+#                 also fuzzing of all that is read, 20 s each
 #     --threads   the tests with several threads only, with ThreadSanitizer
 #     --clang     with clang++
 set -euo pipefail

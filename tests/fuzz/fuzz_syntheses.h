@@ -15,8 +15,8 @@ inline std::vector<helpers::RandomSynthesis> syntheses() {
   const freqsynth::SharedInverseList list{freqsynth::InverseListSettings()};
   for (unsigned number = 0; all.size() < 24; ++number) {
     helpers::RandomSynthesis one(number);
-    one.settings.width = 1 + one.settings.width % 17;
-    one.settings.height = 1 + one.settings.height % 17;
+    one.settings.width = 1 + one.settings.width % 13;
+    one.settings.height = 1 + one.settings.height % 13;
     one.settings.importance.clear();
     one.settings.window = {};
     one.settings.max_samples_per_block = 10 + number % 5 * 40;

@@ -31,7 +31,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   helpers::RandomHost host(synthesis, 1);
   for (int step = 0; step < 12; ++step) host.step(*engine);
   static_cast<void>(engine->image());
-  static_cast<void>(engine->finished_image());
   static_cast<void>(engine->bad_samples());
+  // This takes most of the time.
+  if (freqsynth::detail::crc32c(0, saved) % 8 == 0) static_cast<void>(engine->finished_image());
   return 0;
 }
