@@ -19,6 +19,8 @@ const char* name_of(freqsynth::StopReason reason) {
       return "target";
     case freqsynth::StopReason::cancelled:
       return "interrupted";
+    case freqsynth::StopReason::seconds:
+      return "time";
     default:
       return "exhausted";
   }

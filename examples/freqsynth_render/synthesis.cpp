@@ -170,9 +170,12 @@ class Synthesis {
                      values.subspan(i * channels, channels));
       }
     };
-    const auto progress = [&](double share) {
+    const auto progress = [&](const freqsynth::Progress& now) {
       if (std::isfinite(stop)) {
-        bar_.show(share * stop / stops_.back());
+        // What comes after this stop goes at the same pace.
+        const double end = stop / stops_.back(), share = now.fraction * end;
+        const double left = share < end ? now.seconds_left * (1 - share) / (end - share) : 0;
+        bar_.show(share, left);
       } else {
         bar_.count(samples_per_pixel(options_, engine_.stats()));
       }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // run() on a pool of the host's own, with an end after a time, an exception and bad samples.
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <future>
@@ -35,7 +34,7 @@ int main() {
     return 0.5 + 0.5 * std::sin(x * y / 500);
   };
   freqsynth::Synthesizer engine({.width = 200, .height = 150, .channels = 1});
-  const freqsynth::StopRule stop{.samples_per_pixel = 1};
+  const freqsynth::StopRule stop{.samples_per_pixel = 1, .seconds = 60};  // what comes first
 
   try {
     engine.run(radiance, stop, HostPool{});
@@ -44,9 +43,13 @@ int main() {
     broken = false;
   }
 
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-  const auto report = engine.run(radiance, stop, HostPool{}, [&](double /*done*/) {
-    return std::chrono::steady_clock::now() < end;  // false: run() returns, and can go on later
+  double told = 0;
+  const auto report = engine.run(radiance, stop, HostPool{}, [&](const freqsynth::Progress& now) {
+    if (now.fraction >= told + 0.25) {
+      told = now.fraction;
+      std::fprintf(stderr, "%.0f %%, %.1f s left\n", 100 * now.fraction, now.seconds_left);
+    }
+    return true;  // false: run() returns, and can go on later
   });
   std::printf("%s, %llu samples\n",
               report.reason == freqsynth::StopReason::samples ? "all samples" : "out of time",

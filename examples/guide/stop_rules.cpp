@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a number of samples buys, and what an aliasing threshold.
+// What a number of samples buys, what an aliasing threshold, and an end after a time.
 #include <cmath>
 #include <cstdio>
 #include <vector>
@@ -47,4 +47,9 @@ int main() {
     show("soft", soft, {.samples_per_pixel = 16, .aliasing_threshold = threshold});
     show("stripes", stripes, {.samples_per_pixel = 16, .aliasing_threshold = threshold});
   }
+  // The first rule that holds ends it.
+  freqsynth::Synthesizer engine({.width = side, .height = side, .channels = 1});
+  const auto report = engine.run(stripes, {.samples_per_pixel = 800, .seconds = 0.05});
+  std::printf("ended by %s\n",
+              report.reason == freqsynth::StopReason::seconds ? "the time" : "another rule");
 }
