@@ -152,7 +152,9 @@ void work_together(Synthesizer& engine, const Host& host, std::size_t count, ora
 }
 
 TEST(HostThreads, AreEqualToOneThreadWhateverHappens) {
-  oracle::Random random(11);
+  // With --gtest_shuffle --gtest_repeat=N others each time.
+  oracle::Random random(11 +
+                        static_cast<unsigned>(testing::UnitTest::GetInstance()->random_seed()));
   std::size_t abandoned = 0, cancelled = 0;
   const SharedInverseList list;
   for (int round = 0; round < 300; ++round) {

@@ -96,6 +96,35 @@ TEST(Allocation, AListThatIsAskedForItsInversesGoesOn) {
   }
 }
 
+TEST(Allocation, WhateverHappensToARequestNeedsNoMemory) {
+  Synthesizer engine(settings_of(48, 40, 2, 10));
+  engine.set_stop(at_samples(700));
+  std::vector<Request> requests(5);
+  const std::vector<float> values(4 * 5, 0.5f);
+  std::size_t turn = 0, calls = 0;
+  while (const std::size_t count = engine.request(requests)) {
+    const std::span<const Request> some(requests.data(), count);
+    const faults::FailAllocation next(0);
+    if (++turn % 3 == 0) {
+      engine.give_back(some);
+      continue;
+    }
+    calls += count;
+    if (turn % 3 == 1) {
+      engine.abandon(some);
+    } else {
+      engine.deliver(some, std::span(values).first(4 * count), 4);
+    }
+    if (turn == 40) engine.cancel();
+    static_cast<void>(engine.progress());
+    ASSERT_FALSE(next.failed());
+  }
+  EXPECT_EQ(engine.stopped(), StopReason::cancelled);
+  EXPECT_EQ(helpers::calls_of(engine), calls);
+  engine.set_stop(at_samples(700));
+  EXPECT_FALSE(engine.stopped());
+}
+
 /// A loop of the host's own, in portions of 7, which gives every fifth request back once.
 void loop(Synthesizer& engine, std::uint64_t& answered, std::vector<Request>& requests,
           std::vector<float>& values) {

@@ -165,6 +165,26 @@ TEST(ExecutorFaults, AThreadThatIsCancelledInTheSamplerLosesOneCallOnly) {
   EXPECT_TRUE(helpers::same_image(engine.image(), straight.image()));
 }
 
+TEST(ExecutorFaults, AThreadThatIsCancelledWhileItWaitsLeavesAnEngineThatGoesOn) {
+  Synthesizer straight(settings_of(32, 32)), engine(settings_of(32, 32));
+  straight.run(picture, at_samples(300));
+  for (const double seconds : {1e300, 1e5}) {
+    engine.set_stop({.seconds = seconds});
+    std::vector<Request> owed(engine.wave_size());
+    owed.resize(engine.request(owed));
+    std::thread worker([&] {
+      std::vector<Request> more(1);
+      static_cast<void>(engine.request(more, Wait::until_available));
+      ADD_FAILURE() << "the thread was cancelled";
+    });
+    pthread_cancel(worker.native_handle());
+    worker.join();
+    engine.give_back(owed);
+  }
+  EXPECT_EQ(engine.run(picture, at_samples(300)).reason, StopReason::samples);
+  EXPECT_TRUE(helpers::same_image(engine.image(), straight.image()));
+}
+
 TEST(ExecutorFaults, ABatchIsNeverLargerThanAWave) {
   Synthesizer engine(settings_of(32, 32)), straight(settings_of(32, 32));
   const auto run = [](Synthesizer& one, std::size_t batch) {
