@@ -2,6 +2,7 @@
 // A long synthesis that is ended in the middle of a wave, and goes on from a file in another
 // program.
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <stdexcept>
@@ -18,9 +19,9 @@ static float trace(const freqsynth::Request& ray) {
 static const freqsynth::SynthesisSettings settings{.width = 160, .height = 120, .channels = 1};
 static const freqsynth::StopRule stop{.samples_per_pixel = 2};
 
-// Values for `portions` times 100 positions, or to the end.
-static void render(freqsynth::Synthesizer& engine, int portions) {
-  for (; portions > 0; --portions) {
+// To so many samples, or to the end.
+static void render(freqsynth::Synthesizer& engine, std::uint64_t samples) {
+  while (engine.stats().samples < samples) {
     std::vector<freqsynth::Request> rays(100);
     rays.resize(engine.request(rays));
     if (rays.empty()) return;
@@ -43,7 +44,7 @@ int main() {
   {
     freqsynth::Synthesizer engine = start(file);
     engine.set_stop(stop);
-    render(engine, 150);
+    render(engine, 20000);
     std::vector<freqsynth::Request> owed(7);
     owed.resize(engine.request(owed));  // on their way when the file is written
     save_file(file, engine);
@@ -54,7 +55,7 @@ int main() {
   freqsynth::Synthesizer engine = start(file);
   std::printf("loaded after %llu samples\n",
               static_cast<unsigned long long>(engine.stats().samples));
-  render(engine, 1000);  // the stop rule was saved as well
+  render(engine, 1000000);  // the stop rule was saved as well
 
   freqsynth::Synthesizer undisturbed(settings);
   undisturbed.run([](const freqsynth::Request& ray) { return trace(ray); }, stop);

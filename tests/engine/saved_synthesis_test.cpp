@@ -203,7 +203,9 @@ TEST(SavedSynthesis, SeveralThreadsMaySampleMeanwhile) {
   std::vector<Bytes> saved;
   const auto task = [&](std::size_t index) {
     if (index == 0) {
-      while (engine.stats().samples < stop.samples) saved.push_back(engine.save());
+      do {
+        saved.push_back(engine.save());
+      } while (engine.stats().samples < stop.samples);
     } else {
       engine.run(helpers::picture, stop, SerialExecutor(), KeepGoing(), 7);
     }

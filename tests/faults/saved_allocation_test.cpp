@@ -19,7 +19,7 @@ using helpers::picture;
 
 /// In the middle of a wave, half of which is owed.
 std::unique_ptr<Synthesizer> half_way() {
-  auto engine = std::make_unique<Synthesizer>(helpers::settings_of(48, 40));
+  auto engine = std::make_unique<Synthesizer>(helpers::settings_of(48, 40, 1, 8));
   engine->run(picture, helpers::at_samples(300));
   engine->set_stop({});
   std::vector<Request> requests(5);
@@ -32,7 +32,7 @@ std::unique_ptr<Synthesizer> half_way() {
 TEST(SavedAllocation, AnEngineIsLoadedOrNot) {
   const std::unique_ptr<Synthesizer> engine = half_way();
   const std::vector<std::byte> bytes = engine->save();
-  SynthesisSettings settings = helpers::settings_of(48, 40);
+  SynthesisSettings settings = helpers::settings_of(48, 40, 1, 8);
   settings.shared_list = engine->settings().shared_list;
   for (std::size_t k = 0;; ++k) {
     const std::size_t before = faults::bytes_in_use();
