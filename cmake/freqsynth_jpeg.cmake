@@ -21,11 +21,12 @@ if(NOT JPEG_FOUND)
   return()
 endif()
 
-add_library(freqsynth_jpeg src/jpeg/jpeg.cpp src/jpeg/jpeg_file.cpp)
+add_library(freqsynth_jpeg src/c/jpeg.cpp src/jpeg/jpeg.cpp src/jpeg/jpeg_file.cpp)
 add_library(freqsynth::jpeg ALIAS freqsynth_jpeg)
 target_sources(freqsynth_jpeg PUBLIC
   FILE_SET HEADERS BASE_DIRS include FILES
-  include/freqsynth/jpeg/jpeg.h include/freqsynth/jpeg/jpeg_file.h)
+  include/freqsynth/c/jpeg.h include/freqsynth/jpeg/jpeg.h include/freqsynth/jpeg/jpeg_file.h)
+target_include_directories(freqsynth_jpeg PRIVATE src)
 target_include_directories(freqsynth_jpeg PRIVATE src)
 target_link_libraries(freqsynth_jpeg PUBLIC freqsynth PRIVATE JPEG::JPEG)
 set_target_properties(freqsynth_jpeg PROPERTIES EXPORT_NAME jpeg INSTALL_RPATH "$ORIGIN")

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
 # The layer table: the one list of the library's headers, lowest first, each as
 #   header | what it does | section of the paper
-# The build installs exactly these (jpeg/jpeg.h and jpeg/jpeg_file.h with their component), check_layers.cmake lets each
-# include only headers that stand above it, and the README's table is made from it.
+# The build installs exactly these (c/jpeg.h, jpeg/jpeg.h and jpeg/jpeg_file.h with their
+# component), check_layers.cmake lets each include only headers that stand above it, and the
+# README's table is made from it.
 set(FREQSYNTH_LAYERS
   "basis/config.h|version, block size, assertion|"
   "basis/float_bits.h|what kind of number a value is, also under -ffast-math|"
@@ -91,4 +92,11 @@ set(FREQSYNTH_LAYERS
   "synthesizer.h|the engine as hosts use it: request, deliver, run, images|4"
   "synthesizer_file.h|engines in files, to go on after an interruption, compiled only|"
   "freqsynth.h|what a host needs|"
+  "c/status.h|the interface for C: status, error text, handles|"
+  "c/settings.h|the same: settings|"
+  "c/sampling.h|the same: request, deliver, run|"
+  "c/images.h|the same: pictures|"
+  "c/quantization.h|the same: what ends in a quantiser|"
+  "c/jpeg.h|the same of the component `freqsynth::jpeg`|"
+  "c/freqsynth.h|all of the interface for C, and for what can call C (compiled only)|"
 )

@@ -17,7 +17,23 @@ endfunction()
 
 function(configure source build)
   run("${CMAKE_COMMAND}" -S "${source}" -B "${build}" -G "${GENERATOR}"
-      "-DCMAKE_CXX_COMPILER=${CXX}" ${ARGN})
+      "-DCMAKE_CXX_COMPILER=${CXX}" "-DCMAKE_C_COMPILER=${CC}" ${ARGN})
+endfunction()
+
+# Compiles the consumer in C99 with what pkg-config says, and runs it.
+function(build_c_consumer prefix)
+  find_program(pkg_config NAMES pkg-config pkgconf REQUIRED)
+  file(GLOB_RECURSE pc "${prefix}/freqsynth.pc")
+  cmake_path(GET pc PARENT_PATH pc_dir)
+  cmake_path(GET pc_dir PARENT_PATH lib_dir)
+  set(ENV{PKG_CONFIG_PATH} "${pc_dir}")
+  set(ENV{LD_LIBRARY_PATH} "${lib_dir}")
+  execute_process(COMMAND "${pkg_config}" --cflags --libs ${ARGN} "freqsynth = ${VERSION}"
+    OUTPUT_VARIABLE flags COMMAND_ERROR_IS_FATAL ANY)
+  separate_arguments(flags UNIX_COMMAND "${flags}")
+  run("${CC}" -std=c99 -pedantic -Wall -Wextra -Werror
+      "${CMAKE_CURRENT_FUNCTION_LIST_DIR}/c_consumer/main.c" ${flags} -o "${SCRATCH}/c_consumer_pc")
+  expect_version("${SCRATCH}/c_consumer_pc")
 endfunction()
 
 function(build_consumer)
@@ -95,6 +111,10 @@ elseif(CASE STREQUAL "pkg_config")
   run("${CXX}" -std=c++20 ${sources} ${flags} -o "${SCRATCH}/consumer")
   expect_version("${SCRATCH}/consumer")
 
+elseif(CASE STREQUAL "pkg_config_c")
+  # A static library: its own libraries, the C++ one among them, are named with --static.
+  build_c_consumer("${PREFIX}" --static)
+
 elseif(CASE STREQUAL "build_tree")
   build_consumer("-Dfreqsynth_DIR=${BUILD_DIR}" "-DEXPECTED_ROOT=${BUILD_DIR}")
 
@@ -124,9 +144,10 @@ elseif(CASE STREQUAL "shared")
     endif()
   endforeach()
 
-  # Shown is namespace freqsynth, its type information and tables, and nothing else.
+  # Shown is namespace freqsynth, its type information and tables, the C interface, and nothing
+  # else.
   set(foreign "${shown}")
-  list(FILTER foreign EXCLUDE REGEX "^_Z(T[ISVT])?NK?9freqsynth")
+  list(FILTER foreign EXCLUDE REGEX "^_Z(T[ISVT])?NK?9freqsynth|^freqsynth_")
   if(foreign)
     list(JOIN foreign "\n  " foreign)
     message(SEND_ERROR "the shared library shows\n  ${foreign}")
@@ -139,7 +160,7 @@ elseif(CASE STREQUAL "shared")
     endif()
     execute_process(COMMAND "${NM}" --defined-only "${library}" OUTPUT_VARIABLE output
       COMMAND_ERROR_IS_FATAL ANY)
-    string(REGEX MATCHALL " T _ZNK?9freqsynth[^\n]+" functions "${output}")
+    string(REGEX MATCHALL " T (_ZNK?9freqsynth|freqsynth_)[^\n]+" functions "${output}")
     list(TRANSFORM functions REPLACE "^ T " "")
     list(FILTER functions EXCLUDE REGEX "^_ZNK?9freqsynth6detail")
     list(FILTER functions EXCLUDE REGEX "C2E|D2E|[.]")  # twins of C1, D1; versions of a kernel
@@ -165,6 +186,9 @@ elseif(CASE STREQUAL "shared")
   endforeach()
 
   build_consumer("-DCMAKE_PREFIX_PATH=${SCRATCH}/prefix" "-DEXPECTED_ROOT=${SCRATCH}/prefix")
+  set(CONSUMER c_consumer)
+  build_consumer("-DCMAKE_PREFIX_PATH=${SCRATCH}/prefix")
+  build_c_consumer("${SCRATCH}/prefix")  # nothing but the library
   if("freqsynth_jpeg" IN_LIST libraries)
     set(CONSUMER jpeg_consumer)
     build_consumer("-DCMAKE_PREFIX_PATH=${SCRATCH}/prefix")
