@@ -75,7 +75,9 @@ void describe_method(OIIO::ArgParse& parser, Options& options, Texts& texts) {
   parser.arg("--order %s:M", &texts.order).help("Butterworth order (2)");
   parser.arg("--no-butterworth", &texts.no_butterworth).help("Do not filter");
   parser.arg("--pixel-filter %s:NAME", &texts.pixel_filter)
-      .help("none: the fit at the pixels' centres; box: averages over the pixels (box)");
+      .help(
+          "none: the fit at the pixels' centres; box: averages over the pixels; tent, gaussian, "
+          "blackman_harris, mitchell: as renderers have them (box)");
   parser.arg("--no-residuals", &options.no_residuals)
       .help("The paper's estimate: the fit alone, without what it leaves over");
   parser.arg("--scale %s:S", &texts.scale).help("Size of the output relative to --size (1)");
@@ -133,7 +135,9 @@ void read_method(const Texts& texts, Options& options) {
   if (!texts.zone_frequency.empty()) {
     read_positive("--zone-frequency", texts.zone_frequency, options.zone_frequency.emplace());
   }
-  read_name("--pixel-filter", texts.pixel_filter, {"none", "box"}, options.pixel_filter);
+  read_name("--pixel-filter", texts.pixel_filter,
+            {"none", "box", "tent", "gaussian", "blackman_harris", "mitchell"},
+            options.pixel_filter);
   read_name("--channels", texts.channels, {"rgb", "gray"}, options.gray);
   read_name("--steer", texts.steer, {"linear", "relative", "display"}, options.steer);
 }
@@ -167,8 +171,8 @@ void check_combinations(const Texts& texts, const Options& options) {
   refuse_if(options.direct && (options.output.empty() || options.scale != 1 ||
                                options.reference != 0 || has_frames),
             "--direct: needs -o and has no --frames, --scale and --reference");
-  refuse_if(options.direct && options.pixel_filter == freqsynth::PixelFilter::none,
-            "--direct: averages over pixels, has no --pixel-filter none");
+  refuse_if(options.direct && options.pixel_filter != freqsynth::PixelFilter::box,
+            "--direct: averages over pixels, has no other --pixel-filter");
   refuse_if(options.progressive && !options.direct, "--progressive: needs --direct");
   refuse_if(!texts.tolerance.empty() && !options.until_quality,
             "--tolerance: needs --until-quality");

@@ -18,10 +18,13 @@
 #include "freqsynth/c/freqsynth.h"
 #include "freqsynth/engine/thread_pool.h"
 #include "freqsynth/freqsynth.h"
+#include "freqsynth/synthesizer_file.h"
 
 struct freqsynth_synthesizer {
   explicit freqsynth_synthesizer(freqsynth::SynthesisSettings settings)
       : engine(std::move(settings)) {}
+  freqsynth_synthesizer(const std::string& file, const freqsynth::SynthesisSettings& settings)
+      : engine(freqsynth::load_synthesizer(file, settings)) {}
   freqsynth::Synthesizer engine;
 };
 

@@ -133,6 +133,20 @@ freqsynth_status freqsynth_synthesizer_create(const freqsynth_settings* settings
   });
 }
 
+freqsynth_status freqsynth_synthesizer_save(const freqsynth_synthesizer* synthesizer,
+                                            const char* file) {
+  return guarded(
+      [&] { freqsynth::save_file(file_name(file), object(synthesizer, "synthesizer").engine); });
+}
+
+freqsynth_status freqsynth_synthesizer_load(const char* file, const freqsynth_settings* settings,
+                                            freqsynth_synthesizer** synthesizer) {
+  return guarded([&] {
+    freqsynth_synthesizer*& out = object(synthesizer, "synthesizer");
+    out = new freqsynth_synthesizer(file_name(file), settings_of(settings));
+  });
+}
+
 void freqsynth_synthesizer_destroy(freqsynth_synthesizer* synthesizer) { delete synthesizer; }
 
 freqsynth_status freqsynth_set_stop(freqsynth_synthesizer* synthesizer,

@@ -227,6 +227,43 @@ TEST(CInterface, ImportanceChangesAsInCxx) {
   EXPECT_EQ(picture(engine.handle, 1), reconstruct(expected.finished_image()));
 }
 
+TEST(CInterface, SavedEnginesGoOnToTheBit) {
+  const auto file = std::filesystem::temp_directory_path() / "freqsynth_c_interface_test.state";
+  const freqsynth_settings settings = c_settings(2);
+  const freqsynth_stop_rule first = c_rule(3000), second = c_rule(7000);
+  freqsynth_synthesizer* made = nullptr;
+  {
+    const Engine engine(host_render(&settings, &first, HOST_LOOP));
+    ASSERT_NE(engine.handle, nullptr);
+    ASSERT_EQ(freqsynth_synthesizer_save(engine.handle, file.c_str()), FREQSYNTH_OK);
+  }
+  ASSERT_EQ(freqsynth_synthesizer_load(file.c_str(), &settings, &made), FREQSYNTH_OK)
+      << freqsynth_last_error();
+  const Engine engine(made);
+  freqsynth_run_options options;
+  freqsynth_run_options_init(&options, sizeof options);
+  options.sampler = [](void*, const freqsynth_request* requests, std::size_t count, float* values) {
+    for (std::size_t i = 0; i < 2 * count; ++i) {
+      values[i] = host_radiance(requests[i / 2].x, requests[i / 2].y, i % 2);
+    }
+    return 0;
+  };
+  ASSERT_EQ(freqsynth_run(engine.handle, &second, &options, nullptr), FREQSYNTH_OK);
+  Synthesizer expected(cxx_settings(2));
+  expected.run(sample, {.samples = 3000});
+  expected.run(sample, {.samples = 7000});
+  EXPECT_EQ(picture(engine.handle, 2), reconstruct(expected.finished_image()));
+
+  const freqsynth_settings other = c_settings(3);
+  freqsynth_synthesizer* none = nullptr;
+  EXPECT_EQ(freqsynth_synthesizer_load(file.c_str(), &other, &none), FREQSYNTH_SYSTEM_ERROR);
+  EXPECT_EQ(freqsynth_synthesizer_load(nullptr, &other, &none), FREQSYNTH_INVALID_ARGUMENT);
+  EXPECT_EQ(freqsynth_synthesizer_load("/nonexistent/file", &other, &none), FREQSYNTH_SYSTEM_ERROR);
+  EXPECT_EQ(freqsynth_synthesizer_save(nullptr, file.c_str()), FREQSYNTH_INVALID_ARGUMENT);
+  EXPECT_EQ(none, nullptr);
+  std::filesystem::remove(file);
+}
+
 // ------------------------------------------------------------------------------- every setting
 
 struct Setting {

@@ -18,6 +18,15 @@ extern "C" {
 /** An engine with these settings. */
 FREQSYNTH_C_API freqsynth_status freqsynth_synthesizer_create(const freqsynth_settings* settings,
                                                               freqsynth_synthesizer** synthesizer);
+/** Saves all that is known into a file, also within a wave, so that a later run goes on as if
+ * nothing had happened. The file is replaced when all is written. See Synthesizer::save(). */
+FREQSYNTH_C_API freqsynth_status
+freqsynth_synthesizer_save(const freqsynth_synthesizer* synthesizer, const char* file);
+/** An engine that goes on where one was saved, to the bit.
+ * \param settings  those that it was made with; others are refused by name */
+FREQSYNTH_C_API freqsynth_status freqsynth_synthesizer_load(const char* file,
+                                                            const freqsynth_settings* settings,
+                                                            freqsynth_synthesizer** synthesizer);
 /** Its end. No call for it may be under way. */
 FREQSYNTH_C_API void freqsynth_synthesizer_destroy(freqsynth_synthesizer* synthesizer);
 
