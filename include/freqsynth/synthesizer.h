@@ -169,6 +169,18 @@ class FREQSYNTH_API Synthesizer {
   /// \throws std::invalid_argument when a setting is out of range.
   [[nodiscard]] FrequencyImage finished_image(const FinishSettings& settings = {}) const;
 
+  /// How far each pixel of finished_image(settings) is expected to be from the true mean over its
+  /// area: the root of the expected squared error, in the values' unit; row by row, the channels of
+  /// images interleaved. An estimate for whole pictures and, roughly, for blocks: what no sample
+  /// has hit it knows by what happened elsewhere. Infinite in blocks without a sample.
+  /// \throws std::invalid_argument when a setting is out of range.
+  [[nodiscard]] std::vector<float> error_image(const FinishSettings& settings = {}) const;
+
+  /// The same of the whole: root of the mean over all pixels, and over channels by their weights.
+  /// It finishes no pixels, and may be asked for now and then while sampling goes on.
+  /// \throws std::invalid_argument when a setting is out of range.
+  [[nodiscard]] double predicted_rmse(const FinishSettings& settings = {}) const;
+
   /// Whether the samples of completed waves are taken for Monte Carlo estimates: as
   /// SynthesisSettings::noise says, or as has been seen.
   [[nodiscard]] bool noisy() const;

@@ -143,6 +143,12 @@ inline Steering steering_of(const SynthesisSettings& settings, std::size_t block
   return {settings.priority, settings.noise == Noise::present, channel_weights(settings), blocks};
 }
 
+/// With what the engine knows of noise, unless the settings say otherwise.
+inline FinishSettings settings_for(FinishSettings settings, bool noisy) {
+  if (settings.noise == Noise::automatic) settings.noise = noisy ? Noise::present : Noise::none;
+  return settings;
+}
+
 }  // namespace detail
 
 struct Synthesizer::Implementation {
@@ -187,6 +193,19 @@ struct Synthesizer::Implementation {
   /// An image of all that is sampled as it is shown.
   [[nodiscard]] FrequencyImage shown(FrequencyImage image) const {
     return grid.is_part() ? image.part(shown()) : std::move(image);
+  }
+  /// The same of values of pixels, `channels` of each.
+  [[nodiscard]] std::vector<float> shown(const std::vector<float>& all,
+                                         std::size_t channels) const {
+    const PixelWindow part = shown();
+    std::vector<float> values;
+    values.reserve(part.width * part.height * channels);
+    for (std::size_t y = 0; y < part.height; ++y) {
+      const std::size_t first = ((part.y + y) * grid.width + part.x) * channels;
+      const auto row = all.begin() + static_cast<std::ptrdiff_t>(first);
+      values.insert(values.end(), row, row + static_cast<std::ptrdiff_t>(part.width * channels));
+    }
+    return values;
   }
 
   BlockGrid grid;
@@ -279,9 +298,8 @@ FREQSYNTH_INLINE FrequencyImage Synthesizer::finished_image(const FinishSettings
   settings.validate();
   return implementation_->shown(implementation_->with_engine([&](const auto& engine) {
     return engine.with_snapshot([&](const BlockGrid& grid, const auto& blocks, bool noisy) {
-      FinishSettings known = settings;
-      if (known.noise == Noise::automatic) known.noise = noisy ? Noise::present : Noise::none;
-      return freqsynth::finished_image(grid, blocks, list, known, features);
+      return freqsynth::finished_image(grid, blocks, list, detail::settings_for(settings, noisy),
+                                       features);
     });
   }));
 }
@@ -296,18 +314,10 @@ FREQSYNTH_INLINE std::vector<float> Synthesizer::nearest_pixels(std::size_t chan
   if (channel < first || channel >= all) {
     detail::refuse("channel is " + std::to_string(channel) + ", not one of role nearest");
   }
-  const std::vector<float> all_pixels = implementation_->with_engine(
-      [&](const auto& engine) { return engine.nearest_pixels(channel - first); });
-  const PixelWindow shown = implementation_->shown();
-  std::vector<float> pixels;
-  pixels.reserve(shown.width * shown.height);
-  for (std::size_t y = 0; y < shown.height; ++y) {
-    const auto row =
-        all_pixels.begin() +
-        static_cast<std::ptrdiff_t>((shown.y + y) * implementation_->grid.width + shown.x);
-    pixels.insert(pixels.end(), row, row + static_cast<std::ptrdiff_t>(shown.width));
-  }
-  return pixels;
+  return implementation_->shown(implementation_->with_engine([&](const auto& engine) {
+    return engine.nearest_pixels(channel - first);
+  }),
+                                1);
 }
 
 FREQSYNTH_INLINE PixelWindow Synthesizer::window() const {
@@ -339,3 +349,4 @@ FREQSYNTH_INLINE std::vector<BadSample> Synthesizer::bad_samples() const {
 }  // namespace freqsynth
 
 #include "freqsynth/synthesizer_saved.inl"
+#include "freqsynth/synthesizer_errors.inl"

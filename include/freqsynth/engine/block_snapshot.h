@@ -12,6 +12,7 @@
 #include "freqsynth/basis/config.h"
 #include "freqsynth/engine/block_store.h"
 #include "freqsynth/engine/state_keeper.h"
+#include "freqsynth/engine/surprise_book.h"
 #include "freqsynth/refine/gap_log.h"
 #include "freqsynth/refine/refiner.h"
 
@@ -28,7 +29,8 @@ class BlockSnapshot {
         keeper_(keeper),
         refiner_(store.refiner()),
         counts_(store.counts().begin(), store.counts().end()),
-        gaps_(store.gap_log()) {
+        gaps_(store.gap_log()),
+        surprises_(store.surprises()) {
     for (std::size_t c = 0; c < refiner_.channels(); ++c) {
       exponents_.push_back(store.exponent(c));
       negative_.push_back(store.any_negative(c) ? 1 : 0);
@@ -47,6 +49,9 @@ class BlockSnapshot {
   [[nodiscard]] int exponent(std::size_t channel) const { return exponents_[channel]; }
   /// Whether a usable value of a channel was below zero.
   [[nodiscard]] bool any_negative(std::size_t channel) const { return negative_[channel] != 0; }
+
+  /// How often blocks had turned out to be other than they seemed, see BlockStore.
+  [[nodiscard]] const SurpriseBook& surprises() const { return surprises_; }
 
   /// Floats of a state, whole cache lines.
   [[nodiscard]] std::size_t state_size() const { return store_.state_size(); }
@@ -101,6 +106,7 @@ class BlockSnapshot {
   R refiner_;
   std::vector<std::uint32_t> counts_;
   GapLog gaps_;
+  SurpriseBook surprises_;
   std::vector<int> exponents_;
   std::vector<std::uint8_t> negative_;
 };

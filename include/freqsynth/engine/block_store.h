@@ -16,6 +16,7 @@
 #include "freqsynth/basis/config.h"
 #include "freqsynth/basis/float_bits.h"
 #include "freqsynth/engine/state_keeper.h"
+#include "freqsynth/engine/surprise_book.h"
 #include "freqsynth/refine/gap_log.h"
 #include "freqsynth/refine/refiner.h"
 #include "freqsynth/sampler.h"
@@ -109,6 +110,8 @@ class BlockStore {
   }
   /// Whether a usable value of a channel was below zero.
   [[nodiscard]] bool any_negative(std::size_t channel) const { return negative_[channel] != 0; }
+  /// How often blocks turned out to be other than they seemed. In the units of the states.
+  [[nodiscard]] const SurpriseBook& surprises() const { return surprises_; }
   /// Makes room, so that the next `more` calls of absorb() cannot fail.
   void reserve(std::size_t more) { gaps_.reserve(more * refiner_.channels()); }
 
@@ -140,6 +143,9 @@ class BlockStore {
     return refiner_.freedom(counts_[block]) / freedom(block);
   }
   void note_gaps(std::size_t block, std::size_t index, const float* values);
+  [[nodiscard]] float squares(std::size_t block, std::size_t channel) const;
+  void remember(std::size_t block);
+  void note_surprises(std::size_t block, std::size_t before);
 
   R refiner_;
   std::size_t most_samples_;
@@ -155,6 +161,8 @@ class BlockStore {
   std::vector<float> factors_;          // of a value: 1 / unit
   std::vector<std::uint8_t> negative_;  // 1: a channel's values are not all positive or 0
   std::vector<float> values_;           // of a sample in the channels' units
+  SurpriseBook surprises_;
+  std::vector<float> before_;  // of each channel, see remember()
 };
 
 // ------------------------------------------------------------------------------------ definitions
@@ -165,7 +173,9 @@ BlockStore<R>::BlockStore(R refiner, std::size_t blocks, std::size_t most_sample
       most_samples_(most_samples),
       counts_(blocks),
       missing_(blocks),
-      gaps_(blocks) {
+      gaps_(blocks),
+      surprises_(refiner_.channels()),
+      before_(refiner_.channels()) {
   exponents_.assign(refiner_.channels(), 0);
   factors_.assign(refiner_.channels(), 1.0f);
   negative_.resize(refiner_.channels());
@@ -186,6 +196,7 @@ void BlockStore<R>::use_units(std::span<const int> exponents, std::span<const fl
     exponents_[c] = exponents[c];
     factors_[c] = std::ldexp(1.0f, -exponents[c]);
     gaps_.rescale(c, std::ldexp(1.0f, difference));
+    surprises_.rescale(c, difference);
     for (std::size_t b = 0; b < size(); ++b) {
       if (counts_[b] == 0) continue;
       keep(b);
@@ -211,10 +222,43 @@ float BlockStore<R>::absorb(std::size_t block, const float* values) {
   if (bad || gaps_.any(block)) [[unlikely]] {
     note_gaps(block, count, values_.data());
   }
+  remember(block);
   const float change = refiner_.absorb(states_.data() + block * stride_, count, values_.data());
   ++count;
+  note_surprises(block, count - 1);
   largest_ = std::max<std::size_t>(largest_, count);
   return change;
+}
+
+/// Sum of the squares that a block's fit leaves over of a channel.
+template <Refiner R>
+float BlockStore<R>::squares(std::size_t block, std::size_t channel) const {
+  if constexpr (requires { refiner_.squared_residuals(state(block), channel); }) {
+    return refiner_.squared_residuals(state(block), channel);
+  } else {
+    return refiner_.residual(state(block), counts_[block], channel) *
+           refiner_.freedom(counts_[block]);
+  }
+}
+
+/// Before a block takes in samples.
+template <Refiner R>
+void BlockStore<R>::remember(std::size_t block) {
+  for (std::size_t c = 0; c < before_.size(); ++c) before_[c] = squares(block, c);
+}
+
+/// And afterwards. \param before  samples that it had had
+template <Refiner R>
+void BlockStore<R>::note_surprises(std::size_t block, std::size_t before) {
+  const std::size_t now = counts_[block];
+  surprises_.count(before, now - before);
+  for (std::size_t c = 0; c < before_.size(); ++c) {
+    const float left = squares(block, c);
+    if (!(left > 2 * before_[c])) [[likely]]
+      continue;
+    surprises_.note(c, {before, before_[c], refiner_.freedom(before)},
+                    {now, left, refiner_.freedom(now)});
+  }
 }
 
 /// Before a block takes in a sample.

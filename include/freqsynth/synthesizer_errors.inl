@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// The expected errors of a synthesis.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "freqsynth/image/error_image.h"
+
+namespace freqsynth {
+
+FREQSYNTH_INLINE std::vector<float> Synthesizer::error_image(const FinishSettings& settings) const {
+  settings.validate();
+  const std::vector<float> all = implementation_->with_engine([&](const auto& engine) {
+    return engine.with_snapshot([&](const BlockGrid& grid, const auto& blocks, bool noisy) {
+      return freqsynth::error_image(grid, blocks, detail::settings_for(settings, noisy));
+    });
+  });
+  return implementation_->shown(all, channels() - detail::nearest_channels(this->settings()));
+}
+
+FREQSYNTH_INLINE double Synthesizer::predicted_rmse(const FinishSettings& settings) const {
+  settings.validate();
+  const std::vector<double> squares = implementation_->with_engine([&](const auto& engine) {
+    return engine.with_snapshot([&](const BlockGrid& grid, const auto& blocks, bool noisy) {
+      return expected_squared_errors(grid, blocks, detail::settings_for(settings, noisy),
+                                     implementation_->shown());
+    });
+  });
+  std::vector<float> weights = detail::channel_weights(implementation_->settings);
+  const bool none = std::none_of(weights.begin(), weights.end(), [](float one) { return one > 0; });
+  if (none) weights.assign(weights.size(), 1 / static_cast<float>(weights.size()));
+  double square = 0;
+  for (std::size_t c = 0; c < squares.size(); ++c) {
+    if (weights[c] > 0) square += double{weights[c]} * squares[c];
+  }
+  return std::sqrt(square);
+}
+
+}  // namespace freqsynth
