@@ -3,15 +3,37 @@
 # Builds the examples in build/examples. On Debian, installs what they need and is missing.
 #   examples/run.sh                 renders the two scenes into out/
 #   examples/run.sh ARGUMENTS...    runs freqsynth_render with these arguments
+#   examples/run.sh --mpi [RANKS [ARGUMENTS...]]  runs freqsynth_mpi on so many ranks of this
+#                                   machine, one more than it has cores: one of them only leads
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
-"$root/.ci/install_missing" cmake g++ ninja-build pkg-config libjpeg62-turbo-dev \
-  libopenimageio-dev
+packages=(cmake g++ ninja-build pkg-config libjpeg62-turbo-dev libopenimageio-dev)
+mpi=
+if [[ ${1:-} == --mpi ]]; then
+  mpi=1
+  shift
+  packages+=(libopenmpi-dev openmpi-bin)
+fi
+"$root/.ci/install_missing" "${packages[@]}"
 if command -v ninja >/dev/null; then
   export CMAKE_GENERATOR=${CMAKE_GENERATOR:-Ninja}
 fi
 (cd "$root" && cmake --preset examples && cmake --build build/examples -j "$(nproc)") >&2
+
+if [[ -n $mpi ]]; then
+  ranks=${1:-$(($(nproc) + 1))}
+  shift || true
+  if [[ $# -eq 0 ]]; then
+    mkdir -p "$root/out"
+    set -- --scene chess --size 1024x1024 --spp 2 -o "$root/out/chess_mpi.exr"
+  fi
+  # Containers have no other user than root, and ranks may be more than cores.
+  if [[ $EUID -eq 0 ]]; then
+    export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+  fi
+  exec mpirun --oversubscribe -n "$ranks" "$root/build/examples/examples/freqsynth_mpi" "$@"
+fi
 
 render=$root/build/examples/examples/freqsynth_render
 if [[ $# -gt 0 ]]; then

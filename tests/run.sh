@@ -34,7 +34,8 @@ case $preset in
   tests)
     # clang also for the consumers among the tests.
     packages+=(clang clang-format doxygen libbenchmark-dev libeigen3-dev libfftw3-dev
-      libopenblas-dev libjpeg-turbo-progs libopenimageio-dev pkg-config)
+      libopenblas-dev libjpeg-turbo-progs libopenimageio-dev libopenmpi-dev openmpi-bin
+      pkg-config)
     # Otherwise the test that each header compiles alone would build them, one by one.
     targets+=(all_verify_interface_header_sets)
     ;;

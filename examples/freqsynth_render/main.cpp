@@ -13,6 +13,7 @@
 #include "common/interrupt.h"
 #include "common/picture.h"
 #include "common/progress_bar.h"
+#include "common/sampling.h"
 #include "direct.h"
 #include "freqsynth/engine/thread_pool.h"
 #include "freqsynth/freqsynth.h"
@@ -30,11 +31,7 @@ std::unique_ptr<scenes::Scene> scene_of(const Options& options) {
                                      .height = static_cast<int>(options.height),
                                      .seed = options.seed};
   if (options.zone_frequency) scene_options.zone_frequency = *options.zone_frequency;
-  try {
-    return scenes::make_scene(scene_options);
-  } catch (const std::invalid_argument& error) {
-    throw UsageError(std::string("--scene: ") + error.what());
-  }
+  return named_scene(scene_options);
 }
 
 /// All that can be known before the first sample of where the results go.

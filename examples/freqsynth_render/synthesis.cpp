@@ -10,15 +10,14 @@
 #include <string>
 #include <vector>
 
+#include "common/checkpoint.h"
 #include "common/interrupt.h"
 #include "common/picture.h"
 #include "common/progress_bar.h"
 #include "common/sampling.h"
 #include "direct.h"
-#include "freqsynth/basis/sample_sequence.h"
 #include "freqsynth/engine/thread_pool.h"
 #include "freqsynth/freqsynth.h"
-#include "freqsynth/synthesizer_file.h"
 #include "run_stats.h"
 
 namespace {
@@ -94,13 +93,8 @@ freqsynth::SynthesisSettings settings_of(const Options& options) {
     settings.quantization = freqsynth::quantization_target(quantization_of(options),
                                                            settings.channels, options.tolerance);
   }
-  // Room for blocks with four times the average.
-  if (std::isfinite(options.samples_per_pixel)) {
-    constexpr auto most = static_cast<double>(freqsynth::SampleSequence::max_size);
-    const double generous = std::min(4 * 64 * options.samples_per_pixel, most);
-    settings.max_samples_per_block =
-        std::max(settings.max_samples_per_block, static_cast<std::size_t>(generous));
-  }
+  settings.max_samples_per_block =
+      block_limit(options.samples_per_pixel, settings.max_samples_per_block);
   return settings;
 }
 
@@ -121,10 +115,9 @@ class Synthesis {
       : options_(options),
         scene_(scene),
         stops_(stops_of(options)),
-        engine_(options.resume.empty()
-                    ? freqsynth::Synthesizer(settings_of(options))
-                    : freqsynth::load_synthesizer(options.resume, settings_of(options))),
-        pool_(options.threads) {}
+        engine_(make_engine(options.resume, settings_of(options))),
+        pool_(options.threads),
+        checkpoint_("freqsynth_render", options.checkpoint, options.checkpoint_every) {}
 
   /// \return whether it came to its end, and was not interrupted
   bool run() {
@@ -132,7 +125,7 @@ class Synthesis {
     for (std::size_t i = 0; i < stops_.size() && !interrupted; ++i) {
       reason_ = run_to(stops_[i]);
       interrupted = reason_ == freqsynth::StopReason::cancelled;
-      keep_state();
+      checkpoint_.keep(engine_);
       write_at(stops_[i], interrupted);
     }
     if (!frames_.empty()) write_picture(contact_sheet_name(options_), contact_sheet(frames_, 4));
@@ -141,35 +134,10 @@ class Synthesis {
   }
 
  private:
-  /// Keeps the state of the run, where that is wanted. A disk that is full is no end of a long run.
-  void keep_state() {
-    if (options_.checkpoint.empty()) return;
-    try {
-      freqsynth::save_file(options_.checkpoint, engine_);
-    } catch (const std::runtime_error& error) {
-      std::fprintf(stderr, "freqsynth_render: --checkpoint: %s\n", error.what());
-    }
-    next_state_ = state_due();
-  }
-  [[nodiscard]] std::chrono::steady_clock::time_point state_due() const {
-    // More than a century is never.
-    const double seconds = std::min(options_.checkpoint_every, 4e9);
-    return std::chrono::steady_clock::now() +
-           std::chrono::duration_cast<std::chrono::steady_clock::duration>(
-               std::chrono::duration<double>(seconds));
-  }
-
   /// Goes on to `stop` samples per pixel.
   freqsynth::StopReason run_to(double stop) {
     const std::size_t channels = engine_.settings().channels;
-    const auto sampler = [&](std::span<const freqsynth::Request> requests,
-                             std::span<float> values) {
-      for (std::size_t i = 0; i < requests.size(); ++i) {
-        sample_scene(scene_, requests[i].x, requests[i].y,
-                     scenes::sample_id(requests[i].pixel, requests[i].ordinal),
-                     values.subspan(i * channels, channels));
-      }
-    };
+    const SceneSampler sampler(scene_, channels);
     const auto progress = [&](const freqsynth::Progress& now) {
       if (std::isfinite(stop)) {
         // What comes after this stop goes at the same pace.
@@ -179,9 +147,7 @@ class Synthesis {
       } else {
         bar_.count(samples_per_pixel(options_, engine_.stats()));
       }
-      if (!options_.checkpoint.empty() && std::chrono::steady_clock::now() >= next_state_) {
-        keep_state();
-      }
+      checkpoint_.keep_when_due(engine_);
       return noted_interrupt() == 0;
     };
     const auto run = [&](auto&& values) {
@@ -255,8 +221,8 @@ class Synthesis {
   std::vector<double> stops_;
   freqsynth::Synthesizer engine_;
   freqsynth::ThreadPool pool_;
+  Checkpoint checkpoint_;
   ProgressBar bar_;
-  std::chrono::steady_clock::time_point next_state_ = state_due();
   Seconds seconds_;
   freqsynth::StopReason reason_ = freqsynth::StopReason::samples;
   std::vector<Picture> frames_;

@@ -1,0 +1,97 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Renders on 1 to 4 ranks, with delays and failures, and uses freqsynth_mpi wrongly.
+#   freqsynth_mpi_test.sh PROGRAM FREQSYNTH_RENDER MPIEXEC FOLDER
+set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/expect_failure.sh"
+program=$(realpath "$1")
+render=$(realpath "$2")
+mpiexec=$3
+folder=$4
+rm -rf "$folder"
+mkdir -p "$folder"
+cd "$folder"
+# More ranks than cores, and containers have no other user.
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
+# on RANKS ARGUMENTS...
+on() { "$mpiexec" -n "$1" "$program" "${@:2}"; }
+# figure NAME: the first of that name in s.json
+figure() { sed -n "s/.*\"$1\": \([0-9.e+]*\).*/\1/p" s.json | head -n 1; }
+
+small=(--size 61x43 --wave 16)
+
+# Alone, without mpirun.
+expect_failure 2 "usage: mpirun -n RANKS freqsynth_mpi"
+expect_failure 2 "usage: mpirun" --no-such-option
+expect_failure 2 "--size 64" --size 64 -o a.png
+expect_failure 2 "--spp -1" "${small[@]}" --spp -1 -o a.png
+expect_failure 2 "--uniform 0" "${small[@]}" --uniform 0 -o a.png
+expect_failure 2 "--uniform 99999999" "${small[@]}" --uniform 99999999 -o a.png
+expect_failure 2 "--uniform: has no --spp" "${small[@]}" --uniform 4 --spp 1 -o a.png
+expect_failure 2 "--windows 4" "${small[@]}" --windows 4 -o a.png
+expect_failure 2 "--threads 0" "${small[@]}" --threads 0 -o a.png
+expect_failure 2 "cheese" "${small[@]}" --scene cheese -o a.png
+expect_failure 1 "nowhere/a.png" "${small[@]}" -o nowhere/a.png
+expect_failure 1 "missing.png" "${small[@]}" --scene image:missing.png -o a.png
+[[ ! -e a.png ]] || fail "a refused command wrote a picture"
+"$program" --help >said
+grep -qF -- "--windows" said || fail "--help says $(cat said)"
+# On several ranks it ends as well, and is said once.
+! on 3 "${small[@]}" --scene cheese -o a.png >said 2>&1 || fail "cheese is a scene"
+[[ $(grep -cF "unknown scene 'cheese'" said) == 1 ]] || fail "says $(cat said)"
+! timeout 60 "$mpiexec" -n 3 "$program" "${small[@]}" -o nowhere/a.png >said 2>&1 ||
+  fail "there is a folder"
+
+# One process and many make the same picture.
+for scene in chess cornell; do
+  one=(--scene $scene "${small[@]}" --spp 2 --seed 5)
+  "$render" "${one[@]}" -o "$scene.pfm"
+  for ranks in 1 2 3 4; do
+    on $ranks "${one[@]}" --delays $ranks -o ranks.pfm --stats s.json >said
+    cmp "$scene.pfm" ranks.pfm || fail "$scene: another picture on $ranks ranks"
+    grep -qF "ranks.pfm: 2 samples per pixel" said || fail "says $(cat said)"
+    [[ $(figure samples) == $((2 * 61 * 43)) ]] || fail "$(figure samples) samples"
+  done
+done
+on 3 "${one[@]}" --threads 2 -o ranks.pfm >said
+cmp "$scene.pfm" ranks.pfm || fail "another picture with two threads on each rank"
+
+# Ranks that fail now and then, and ranks that always do.
+for share in 1/20 1; do
+  on 4 "${one[@]}" --failures $share -o ranks.pfm --stats s.json >said 2>&1
+  cmp "$scene.pfm" ranks.pfm || fail "another picture when ranks fail"
+  grep -qF "fails on trial" said || fail "says $(cat said)"
+  grep -q '"errors": [1-9]' s.json || fail "no rank has failed"
+done
+# Then rank 0 has traced all, with those that are asked twice.
+awk '/"packets"/ { gsub(/[^0-9. ]/, " "); n += $1; if (!first) first = $1 }
+     END { exit !(first == n && n > 0) }' s.json || fail "rank 0 has not traced all: $(cat s.json)"
+
+# Where blocks have equal samples there is no seam: windows are the whole, to the bit.
+for samples in 1 13 81; do
+  even=(--scene chess --size 61x43 --uniform $samples)
+  on 1 "${even[@]}" -o whole.pfm >said
+  for ranks in 1 3; do
+    on $ranks "${even[@]}" --windows 3x2 -o windows.pfm >said
+    cmp whole.pfm windows.pfm || fail "a seam with $samples samples in each block"
+  done
+done
+# Otherwise they depend on neither the ranks nor what happens to them.
+windows=(--scene chess --size 136x104 --spp 1 --windows 3x2)
+on 1 "${windows[@]}" -o windows.pfm --stats s.json >said
+awk -v n="$(figure samples_per_pixel)" 'BEGIN { exit !(n > 0.99 && n < 1.01) }' ||
+  fail "$(figure samples_per_pixel) samples per pixel in windows"
+on 4 "${windows[@]}" --delays 1 -o again.pfm >said
+cmp windows.pfm again.pfm || fail "other windows on 4 ranks"
+on 3 "${windows[@]}" --failures 1/100 -o again.pfm >said 2>&1
+cmp windows.pfm again.pfm || fail "other windows when ranks fail"
+
+# An interrupt: what there is is written.
+"$program" --scene chess --size 256x256 --spp 100 --sleep 100 -o part.pfm >said 2>&1 &
+sleep 2
+kill -INT $!
+status=0
+wait $! || status=$?
+[[ $status -eq 130 && -e part.pfm ]] || fail "exit code $status after SIGINT: $(cat said)"
+[[ -z $(find . -mindepth 1 -name '.*') ]] || fail "unfinished files are left"
+echo "freqsynth_mpi: all as expected"
