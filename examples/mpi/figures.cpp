@@ -42,6 +42,7 @@ std::string as_json(const RunFigures& run) {
                 whole(figures.bytes_in));
   text += print("  \"choosing_seconds\": %.6f,\n  \"absorbing_seconds\": %.6f,\n", figures.choosing,
                 figures.absorbing);
+  text += print("  \"finishing_seconds\": %.6f,\n", figures.finishing);
   text += print("  \"mailing_seconds\": %.6f,\n  \"windows\": [", figures.mailing);
   for (std::size_t w = 0; w < figures.windows.size(); ++w) {
     text += print("%s%llu", w > 0 ? ", " : "", whole(figures.windows[w]));

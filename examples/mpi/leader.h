@@ -40,6 +40,7 @@ struct Figures {
   std::uint64_t bytes_out = 0, bytes_in = 0;
   double choosing = 0;   ///< waves: while the others wait
   double absorbing = 0;  ///< waves: while the others wait
+  double finishing = 0;  ///< the picture of one engine
   double mailing = 0;    ///< letters and values: while the others trace
 };
 

@@ -17,6 +17,7 @@
 #include "common/output_file.h"
 #include "common/picture.h"
 #include "common/progress_bar.h"
+#include "cpu_clock.h"
 #include "figures.h"
 #include "freqsynth/engine/thread_pool.h"
 #include "freqsynth/freqsynth.h"
@@ -59,7 +60,10 @@ class Run {
     const auto reason = run(engine, stop(), Job::picture, 0, 1);
     samples_ = engine.stats().samples;
     waves_ = engine.stats().waves;
-    if (waves_ > 0) picture_.pixels = farm::pixels_of(engine);
+    if (waves_ > 0) {
+      const farm::CpuClock clock(leader_.figures().finishing);
+      picture_.pixels = farm::pixels_of(engine);
+    }
     return reason != freqsynth::StopReason::cancelled;
   }
 
