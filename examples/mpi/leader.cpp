@@ -66,8 +66,6 @@ void Leader::note_failure(int rank, const std::string& why) {
 freqsynth::StopReason Leader::run(freqsynth::Synthesizer& engine, const freqsynth::StopRule& stop,
                                   std::size_t work, const ProgressFunction& progress) {
   const std::size_t channels = engine.channels();
-  const auto most =
-      static_cast<double>(stop.most_samples(engine.settings().width, engine.settings().height));
   engine.set_stop(stop);
   while (under_way_ > 0 || !at_work().empty()) {
     if (!all_fetched_) fetch(engine);
@@ -81,7 +79,7 @@ freqsynth::StopReason Leader::run(freqsynth::Synthesizer& engine, const freqsynt
     std::optional<Letter> letter = look();
     if (!letter) continue;
     take_answer(engine, std::move(*letter), channels);
-    if (!progress(static_cast<double>(engine.stats().samples) / most)) {
+    if (!progress(engine.progress())) {
       settle(engine, channels);
       return freqsynth::StopReason::cancelled;
     }

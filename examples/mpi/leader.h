@@ -44,8 +44,8 @@ struct Figures {
   double mailing = 0;    ///< letters and values: while the others trace
 };
 
-/// Tells the share that is done; false ends the run.
-using ProgressFunction = std::function<bool(double)>;
+/// How far it is; false ends the run.
+using ProgressFunction = std::function<bool(const freqsynth::Progress&)>;
 
 /// Leads the other ranks, which serve(). They are sent home at its end.
 class Leader {

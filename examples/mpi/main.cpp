@@ -6,12 +6,14 @@
 #include <chrono>
 #include <cstdio>
 #include <exception>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "common/checkpoint.h"
 #include "common/interrupt.h"
 #include "common/option_values.h"
 #include "common/output_file.h"
@@ -43,7 +45,9 @@ class Run {
   bool operator()() {
     const Options& options = job_.options();
     check_picture(options.output, options.width, options.height, Job::channels);
-    if (!options.stats.empty()) check_writable(options.stats);
+    for (const std::string& file : {options.stats, options.checkpoint}) {
+      if (!file.empty()) check_writable(file);
+    }
     const bool ended = options.columns != 0 ? in_windows() : with_one_engine();
     if (picture_.pixels.empty()) {
       std::fprintf(stderr, "freqsynth_mpi: too early for a picture\n");
@@ -56,8 +60,14 @@ class Run {
 
  private:
   bool with_one_engine() {
-    freqsynth::Synthesizer engine(job_.settings(Job::picture));
-    const auto reason = run(engine, stop(), Job::picture, 0, 1);
+    const Options& options = job_.options();
+    freqsynth::Synthesizer engine = make_engine(options.resume, job_.settings(Job::picture));
+    Checkpoint checkpoint("freqsynth_mpi", options.checkpoint, options.checkpoint_every);
+    const auto reason = run(engine, Job::picture, [&](const freqsynth::Progress& now) {
+      checkpoint.keep_when_due(engine);
+      return show(now.fraction, now.seconds_left);
+    });
+    checkpoint.keep(engine);
     samples_ = engine.stats().samples;
     waves_ = engine.stats().waves;
     if (waves_ > 0) {
@@ -77,7 +87,9 @@ class Run {
       for (const auto& window : windows) tasks.push_back({window, farm::WindowTask::no_limit});
     } else {
       freqsynth::Synthesizer coarse(job_.settings(Job::coarse_picture));
-      const auto reason = run(coarse, stop(), Job::coarse_picture, 0, coarse_share);
+      const auto reason = run(coarse, Job::coarse_picture, [&](const freqsynth::Progress& now) {
+        return show(coarse_share * now.fraction);
+      });
       if (reason == freqsynth::StopReason::cancelled) return false;
       samples_ = coarse.stats().samples;
       const std::uint64_t all = stop().most_samples(options.width, options.height);
@@ -96,18 +108,17 @@ class Run {
     return {.samples_per_pixel = job_.options().samples_per_pixel};
   }
 
-  freqsynth::StopReason run(freqsynth::Synthesizer& engine, const freqsynth::StopRule& rule,
-                            std::size_t work, double from, double to) {
-    const auto reason = leader_.run(engine, rule, work,
-                                    [&](double share) { return show(from + (to - from) * share); });
+  freqsynth::StopReason run(freqsynth::Synthesizer& engine, std::size_t work,
+                            const farm::ProgressFunction& progress) {
+    const auto reason = leader_.run(engine, stop(), work, progress);
     if (reason == freqsynth::StopReason::unusable) {
       throw std::runtime_error("not one sample of the scene is a finite number");
     }
     return reason;
   }
 
-  bool show(double share) {
-    bar_.show(share);
+  bool show(double share, double seconds_left = std::numeric_limits<double>::infinity()) {
+    bar_.show(share, seconds_left);
     return noted_interrupt() == 0;
   }
 

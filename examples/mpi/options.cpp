@@ -14,7 +14,8 @@ namespace {
 
 /// The values of options as they were given; empty: not given.
 struct Texts {
-  std::string size, spp, uniform, wave, seed, threads, windows, busy, sleep, delays, failures;
+  std::string size, spp, uniform, wave, seed, threads, windows, checkpoint_every, busy, sleep,
+      delays, failures;
   bool help = false;
 };
 
@@ -33,6 +34,10 @@ void describe(OIIO::ArgParse& parser, Options& options, Texts& texts) {
       .help("Blocks sampled between two choices: more for more ranks (1/32 of all)");
   parser.arg("--seed %s:N", &texts.seed).help("Seed of the random choices (0)");
   parser.arg("--threads %s:N", &texts.threads).help("Threads that trace on each rank (1)");
+  parser.arg("--checkpoint %s:FILE", &options.checkpoint)
+      .help("Keep the state of the run in a file of rank 0, to go on after the loss of all ranks");
+  parser.arg("--checkpoint-every %s:SECONDS", &texts.checkpoint_every).help("How often (60)");
+  parser.arg("--resume %s:FILE", &options.resume).help("Go on from there, with the same options");
   parser.separator("For trials:");
   parser.arg("--busy %s:US", &texts.busy)
       .help("Each sample computes for so many microseconds more");
@@ -69,6 +74,7 @@ std::optional<Options> parse_options(int argc, const char** argv, bool print) {
   read_count<std::size_t>("--threads", texts.threads, 1, options.threads);
   if (options.threads > 1024) refuse("--threads", texts.threads, "in 1..1024");
   read_size("--windows", texts.windows, options.columns, options.rows);
+  read_positive("--checkpoint-every", texts.checkpoint_every, options.checkpoint_every);
   read_positive("--busy", texts.busy, options.trial.busy_microseconds);
   read_positive("--sleep", texts.sleep, options.trial.sleep_microseconds);
   if (!texts.delays.empty()) {
@@ -76,6 +82,9 @@ std::optional<Options> parse_options(int argc, const char** argv, bool print) {
   }
   read_positive("--failures", texts.failures, options.trial.failures);
   if (!texts.spp.empty() && options.uniform != 0) throw UsageError("--uniform: has no --spp");
+  if (options.columns != 0 && !(options.checkpoint.empty() && options.resume.empty())) {
+    throw UsageError("--windows: has no --checkpoint and no --resume");
+  }
   if (options.output.empty()) throw UsageError("-o: no output file is named");
   if (options.uniform != 0) {
     options.samples_per_pixel = std::numeric_limits<double>::infinity();

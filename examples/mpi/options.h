@@ -18,8 +18,11 @@ struct Options {
   double samples_per_pixel = 1;
   std::size_t uniform = 0;  // samples of each block; 0: adaptive
   std::string output;
-  std::string stats;     // empty: not wanted
-  std::size_t wave = 0;  // 0: the library's choice
+  std::string stats;             // empty: not wanted
+  std::string checkpoint;        // a file for the state of the run; empty: not wanted
+  double checkpoint_every = 60;  // seconds
+  std::string resume;            // a file to go on from; empty: from the beginning
+  std::size_t wave = 0;          // 0: the library's choice
   std::uint64_t seed = 0;
   std::size_t threads = 1;            // of each rank
   std::size_t columns = 0, rows = 0;  // of windows; 0: one engine

@@ -49,7 +49,7 @@ std::vector<float> importance_of(const freqsynth::PixelWindow& window, std::size
 
 /// By an engine that lives as long as this takes.
 Rendered render(const WindowJob& job, const WindowTask& task, freqsynth::ThreadPool& pool,
-                const ProgressFunction& progress) {
+                const ShareFunction& progress) {
   freqsynth::SynthesisSettings settings = job.settings;
   settings.window = task.window;
   settings.importance = importance_of(task.window, settings.width, settings.height);
@@ -68,7 +68,7 @@ std::vector<float> pixels_of(const freqsynth::Synthesizer& engine) {
 }
 
 void answer_window(Mail& mail, Letter& letter, const WindowJob& job, freqsynth::ThreadPool& pool,
-                   const ProgressFunction& progress) {
+                   const ShareFunction& progress) {
   std::span<const std::byte> bytes = letter.bytes;
   const auto task = take<WindowTask>(bytes);
   std::vector<std::byte> answer = mail.paper();
@@ -98,7 +98,7 @@ WindowLeader::WindowLeader(Leader& leader, std::span<const WindowTask> tasks, Pi
 }
 
 bool WindowLeader::run(const WindowJob& job, freqsynth::ThreadPool& pool,
-                       const ProgressFunction& progress) {
+                       const ShareFunction& progress) {
   bool goes_on = true;
   const auto show = [&](double share) {
     goes_on = progress((static_cast<double>(done_) + share) / static_cast<double>(tasks_.size()));

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <span>
 #include <vector>
@@ -26,13 +27,16 @@ struct WindowJob {
   const SampleFunction& sample;
 };
 
+/// Tells the share that is done; false ends the work.
+using ShareFunction = std::function<bool(double)>;
+
 /// The pixels of what an engine shows.
 [[nodiscard]] std::vector<float> pixels_of(const freqsynth::Synthesizer& engine);
 
 /// Answers a letter of Kind::window_task with the window's pixels.
 /// \param progress  false ends it early; the pixels are what there is by then
 void answer_window(Mail& mail, Letter& letter, const WindowJob& job, freqsynth::ThreadPool& pool,
-                   const ProgressFunction& progress);
+                   const ShareFunction& progress);
 
 /// Has the ranks make all windows, the most expensive first, and puts them together.
 class WindowLeader {
@@ -43,7 +47,7 @@ class WindowLeader {
   /// A window whose rank fails goes to another one; when none is left, rank 0 makes it.
   /// \param progress  false: no more windows are begun
   /// \return whether all are there
-  bool run(const WindowJob& job, freqsynth::ThreadPool& pool, const ProgressFunction& progress);
+  bool run(const WindowJob& job, freqsynth::ThreadPool& pool, const ShareFunction& progress);
 
   /// That were taken so far.
   [[nodiscard]] std::uint64_t samples() const { return samples_; }

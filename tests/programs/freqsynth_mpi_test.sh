@@ -86,6 +86,26 @@ cmp windows.pfm again.pfm || fail "other windows on 4 ranks"
 on 3 "${windows[@]}" --failures 1/100 -o again.pfm >said 2>&1
 cmp windows.pfm again.pfm || fail "other windows when ranks fail"
 
+# All ranks are lost, and others go on from what is on the disk, or one process.
+rm -f state
+on 3 --scene chess "${small[@]}" --spp 40 --seed 5 --sleep 20 --checkpoint state --checkpoint-every 0.2 \
+  -o lost.pfm >said 2>&1 &
+for ((i = 0; i < 300; ++i)); do
+  [[ ! -e state ]] || break
+  sleep 0.1
+done
+kill -KILL $(ps -o pid= --ppid $!) # mpiexec, and with it its ranks
+wait $! || true
+[[ -e state && ! -e lost.pfm ]] || fail "nothing was lost: $(cat said)"
+cp state state_then
+"$render" --scene chess "${small[@]}" --spp 40 --seed 5 -o whole.pfm
+for ranks in 1 3; do
+  on $ranks --scene chess "${small[@]}" --spp 40 --seed 5 --resume state_then -o resumed.pfm >said
+  cmp whole.pfm resumed.pfm || fail "another picture on $ranks ranks after the loss of all"
+done
+expect_failure 2 "--windows" --windows 2x2 --checkpoint state -o a.png
+expect_failure 1 "missing" "${small[@]}" --resume missing -o a.png
+
 # An interrupt: what there is is written.
 "$program" --scene chess --size 256x256 --spp 100 --sleep 100 -o part.pfm >said 2>&1 &
 sleep 2
