@@ -35,7 +35,7 @@ case $preset in
     # clang also for the consumers among the tests.
     packages+=(clang clang-format doxygen libbenchmark-dev libeigen3-dev libfftw3-dev
       libopenblas-dev libjpeg-turbo-progs libopenimageio-dev libopenmpi-dev openmpi-bin
-      pkg-config)
+      pkg-config libembree-dev libtinyobjloader-dev libtbb-dev)
     # Otherwise the test that each header compiles alone would build them, one by one.
     targets+=(all_verify_interface_header_sets)
     ;;

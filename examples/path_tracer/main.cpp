@@ -11,8 +11,9 @@
 #include <stdexcept>
 #include <string>
 
+#include "common/channel_file.h"
 #include "common/option_values.h"
-#include "output.h"
+#include "common/picture.h"
 #include "rendering.h"
 
 namespace {
@@ -77,7 +78,7 @@ void render(const Options& options) {
       throw UsageError(std::string("--scene: ") + error.what());
     }
   }();
-  path_tracer::check_output(options.output, job.width, job.height);
+  check_picture(options.output, job.width, job.height, 3);
   freqsynth::ThreadPool pool(options.threads);
   const auto begin = std::chrono::steady_clock::now();
   const path_tracer::Pixels pixels =
@@ -88,7 +89,7 @@ void render(const Options& options) {
                                                       : path_tracer::Numbers::random,
                            pool);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
-  path_tracer::write_channels(options.output, job.width, job.height, pixels);
+  write_channels(options.output, {job.width, job.height, path_tracer::channel_names, pixels});
   std::printf("%s: %g samples per pixel in %.2f s\n", options.output.c_str(), job.samples_per_pixel,
               seconds.count());
 }

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include "freqsynth/engine/thread_pool.h"
@@ -14,9 +15,9 @@
 namespace path_tracer {
 
 /// The channels of a picture. freqsynth chooses samples by the first three alone.
-inline constexpr std::array channel_names = {"R",        "G",        "B",        "colour.R",
-                                             "colour.G", "colour.B", "normal.X", "normal.Y",
-                                             "normal.Z", "nearness"};
+inline constexpr std::array<std::string_view, 10> channel_names = {
+    "R",        "G",        "B",        "colour.R", "colour.G",
+    "colour.B", "normal.X", "normal.Y", "normal.Z", "nearness"};
 inline constexpr std::size_t channels = channel_names.size();
 
 /// Linear values, row by row, the channels of a pixel side by side.

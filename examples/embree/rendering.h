@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+/// \file
+/// Pictures: by freqsynth, and plainly.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "glue.h"
+#ifndef EMBREE_HOST_HAS_TBB
+#include "freqsynth/engine/thread_pool.h"
+#endif
+
+namespace embree_host {
+
+#ifndef EMBREE_HOST_HAS_TBB
+using HostPool = freqsynth::ThreadPool;
+#endif
+
+/// Linear values, row by row, the channels of a pixel side by side.
+using Pixels = std::vector<float>;
+
+/// What is to be rendered.
+struct Job {
+  std::size_t width = 0;
+  std::size_t height = 0;
+  double samples_per_pixel = 1;
+  std::uint64_t frame = 0;  ///< pictures of other frames have other noise
+};
+
+/// Most samples that freqsynth is asked for together.
+inline constexpr std::size_t batch = 4096;
+
+/// The share of the work that is done; false ends it.
+using Progress = std::function<bool(double)>;
+
+/// A pool of so many threads; 0: all. One at a time: those of oneTBB share their threads.
+[[nodiscard]] HostPool make_pool(std::size_t threads);
+
+/// By freqsynth, which says where to sample. An early end leaves the picture of what there is.
+[[nodiscard]] Pixels render_adaptively(const Renderer& renderer, const Job& job, HostPool& pool,
+                                       const Progress& progress);
+
+/// As many samples in each pixel, and their means; the depth of the sample nearest to the centre.
+/// Random numbers come with a jittered grid, Sobol points with Sobol points. An early end leaves
+/// rows black. \throws std::invalid_argument when the number of samples per pixel is not a whole
+/// one.
+[[nodiscard]] Pixels render_plainly(const Renderer& renderer, const Job& job,
+                                    path_tracer::Numbers numbers, HostPool& pool,
+                                    const Progress& progress);
+
+}  // namespace embree_host
