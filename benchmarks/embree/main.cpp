@@ -116,7 +116,7 @@ void measure_errors(std::size_t width, std::size_t height, std::uint32_t light_s
                     double reference_rate) {
   using path_tracer::Numbers;
   const Renderer renderer = make_renderer(width, height, light_samples);
-  const Progress go_on = [](double) { return true; };
+  const Watch go_on = [](const freqsynth::Progress&) { return true; };
   const Pixels reference = [&] {
     HostPool all = make_pool(0);
     return render_plainly(renderer, {width, height, reference_rate, 1u << 20}, Numbers::sobol, all,

@@ -44,18 +44,18 @@ int render(const Options& options) {
   note_interrupts();
   HostPool pool = make_pool(options.threads);
   ProgressBar bar;
-  const Progress progress = [&](double share) {
-    bar.show(share);
+  const Watch watch = [&](const freqsynth::Progress& progress) {
+    bar.show(progress.fraction, progress.seconds_left);
     return noted_interrupt() == 0;
   };
   const auto begin = std::chrono::steady_clock::now();
   const Pixels pixels =
       options.sampler == "freqsynth"
-          ? render_adaptively(renderer, job, pool, progress)
+          ? render_adaptively(renderer, job, pool, watch)
           : render_plainly(renderer, job,
                            options.sampler == "sobol" ? path_tracer::Numbers::sobol
                                                       : path_tracer::Numbers::random,
-                           pool, progress);
+                           pool, watch);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
   write_channels(options.output, {job.width, job.height, channel_names, pixels});
   if (noted_interrupt() != 0) {

@@ -90,7 +90,9 @@ void Renderer::shade(std::span<const RTCRayHit> rays, std::span<const Sample> sa
       continue;
     }
     const double distance = double{rays[i].ray.tfar};
-    first[i] = geometry_.surface(rays[i], double{samples[i].footprint} * pixel_ * distance);
+    // The first samples of a block stand for more than a pixel, but stay in the picture.
+    const double footprint = std::min(double{samples[i].footprint}, 1.0);
+    first[i] = geometry_.surface(rays[i], footprint * pixel_ * distance);
     store(out.subspan(3), first[i].colour);
     store(out.subspan(6), first[i].normal);
     out[10] = rays[i].ray.tfar;

@@ -40,7 +40,7 @@ struct Sky {
 struct Sample {
   path_tracer::SampleName name;
   path_tracer::Numbers numbers = path_tracer::Numbers::sobol;
-  float footprint = 1;  ///< pixels that it speaks for
+  float footprint = 1;  ///< pixels that it stands for; more than one count as one
 };
 
 /// Finds the light. Members may be called from several threads at the same time.

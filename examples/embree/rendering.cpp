@@ -2,6 +2,7 @@
 #include "rendering.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <stdexcept>
 
@@ -74,12 +75,12 @@ HostPool make_pool(std::size_t threads) {
 }
 
 Pixels render_adaptively(const Renderer& renderer, const Job& job, HostPool& pool,
-                         const Progress& progress) {
+                         const Watch& watch) {
   freqsynth::SynthesisSettings settings = settings_of(job.width, job.height);
   settings.seed = job.frame;
   freqsynth::Synthesizer engine(settings);
   engine.run(Sampler{renderer, job.frame}, {.samples_per_pixel = job.samples_per_pixel}, pool,
-             progress, batch);
+             watch, batch);
   const std::vector<float> means = freqsynth::reconstruct(engine.finished_image());
   const std::vector<float> depths = engine.nearest_pixels(depth);
   Pixels pixels(depths.size() * channels);
@@ -91,7 +92,7 @@ Pixels render_adaptively(const Renderer& renderer, const Job& job, HostPool& poo
 }
 
 Pixels render_plainly(const Renderer& renderer, const Job& job, path_tracer::Numbers numbers,
-                      HostPool& pool, const Progress& progress) {
+                      HostPool& pool, const Watch& watch) {
   if (job.samples_per_pixel < 1 || job.samples_per_pixel != std::floor(job.samples_per_pixel)) {
     throw std::invalid_argument("a plain sampler takes a whole number of samples per pixel");
   }
@@ -101,19 +102,27 @@ Pixels render_plainly(const Renderer& renderer, const Job& job, path_tracer::Num
   // Some thousand samples a task; some tasks at a time, so that progress is told.
   const std::size_t all = job.width * job.height;
   const std::size_t portion = std::max<std::size_t>(4096 / count, 1);
+  const auto begin = std::chrono::steady_clock::now();
   const std::size_t together = 8 * pool.concurrency() * portion;
   for (std::size_t first = 0; first < all; first += together) {
     const std::size_t end = std::min(all, first + together);
     const auto render_portion = [&](std::size_t index) {
-      const std::size_t begin = first + index * portion;
+      const std::size_t start = first + index * portion;
       const std::vector<freqsynth::Request> samples =
-          samples_of(job, numbers, begin, std::min(end, begin + portion));
+          samples_of(job, numbers, start, std::min(end, start + portion));
       std::vector<float> values(samples.size() * channels);
       sampler(samples, values);
-      average(samples, values, count, pixels.data() + begin * channels);
+      average(samples, values, count, pixels.data() + start * channels);
     };
     pool.execute((end - first + portion - 1) / portion, freqsynth::TaskRef(render_portion));
-    if (!progress(static_cast<double>(end) / static_cast<double>(all))) break;
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+    const double done = static_cast<double>(end) / static_cast<double>(all);
+    if (!watch({.fraction = done,
+                .seconds = seconds.count(),
+                .seconds_left = seconds.count() * (1 - done) / done,
+                .samples = end * count})) {
+      break;
+    }
   }
   return pixels;
 }

@@ -33,15 +33,15 @@ struct Job {
 /// Most samples that freqsynth is asked for together.
 inline constexpr std::size_t batch = 4096;
 
-/// The share of the work that is done; false ends it.
-using Progress = std::function<bool(double)>;
+/// Told how far it is; false ends the work.
+using Watch = std::function<bool(const freqsynth::Progress&)>;
 
 /// A pool of so many threads; 0: all. One at a time: those of oneTBB share their threads.
 [[nodiscard]] HostPool make_pool(std::size_t threads);
 
 /// By freqsynth, which says where to sample. An early end leaves the picture of what there is.
 [[nodiscard]] Pixels render_adaptively(const Renderer& renderer, const Job& job, HostPool& pool,
-                                       const Progress& progress);
+                                       const Watch& watch);
 
 /// As many samples in each pixel, and their means; the depth of the sample nearest to the centre.
 /// Random numbers come with a jittered grid, Sobol points with Sobol points. An early end leaves
@@ -49,6 +49,6 @@ using Progress = std::function<bool(double)>;
 /// one.
 [[nodiscard]] Pixels render_plainly(const Renderer& renderer, const Job& job,
                                     path_tracer::Numbers numbers, HostPool& pool,
-                                    const Progress& progress);
+                                    const Watch& watch);
 
 }  // namespace embree_host

@@ -24,7 +24,7 @@ const Renderer& colonnade() {
   return renderer;
 }
 
-bool go_on(double /*share*/) { return true; }
+bool go_on(const freqsynth::Progress& /*progress*/) { return true; }
 
 Job job_of(double samples, std::uint64_t frame = 0) { return {width, height, samples, frame}; }
 
@@ -115,8 +115,10 @@ TEST(EmbreeRendering, ChannelsAreThoseOfTheFirstSurface) {
 TEST(EmbreeRendering, EndsEarlyWhenAsked) {
   HostPool pool = make_pool(2);
   int calls = 0;
-  const Progress twice = [&](double share) {
-    EXPECT_GT(share, 0);
+  const Watch twice = [&](const freqsynth::Progress& progress) {
+    EXPECT_GT(progress.fraction, 0);
+    EXPECT_LT(progress.fraction, 1);
+    EXPECT_GT(progress.seconds_left, 0);
     return ++calls < 2;
   };
   const Pixels pixels = render_adaptively(colonnade(), job_of(64), pool, twice);
