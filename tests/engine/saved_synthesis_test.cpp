@@ -51,6 +51,7 @@ std::vector<std::uint64_t> numbers_of(const Synthesizer& engine) {
 void expect_same(const Synthesizer& one, const Synthesizer& other) {
   EXPECT_EQ(numbers_of(one), numbers_of(other));
   EXPECT_EQ(one.image().save(), other.image().save());
+  EXPECT_EQ(one.error_image(), other.error_image());
 }
 
 /// All requests that an engine hands out now; they are owed then.

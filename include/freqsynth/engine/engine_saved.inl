@@ -33,6 +33,7 @@ void Engine<R, M>::list_parts(Archive& archive, Self& self) {
     if constexpr (Archive::loading) StateArchive::check_next(archive, self.grid_, self.blocks_);
   });
   archive.section("STAT", [&] { StateArchive::states(archive, self.blocks_); });
+  archive.section("SURP", [&] { StateArchive::surprises(archive, self.blocks_); });
   archive.section("EDGE",
                   [&] { StateArchive::edges(archive, self.cache_, self.grid_, self.blocks_); });
   archive.section("SIGN", [&] { StateArchive::signal(archive, self.signal_); });

@@ -106,6 +106,19 @@ struct StateArchive {
     }
   }
 
+  template <class Archive, class Store>
+  static void surprises(Archive& archive, Store& blocks) {
+    auto& book = blocks.surprises_;
+    archive.array(std::span(book.counts_));
+    for (auto& levels : book.levels_) {
+      for (auto& level : levels) {
+        archive.number(level.sum);
+        archive.number(level.most);
+        archive.number(level.second);
+      }
+    }
+  }
+
   /// Samples on borders that wait: of each edge those that one of its blocks has and the other one
   /// will take, which tells how many there are; of each corner its values, where they are known.
   template <class Archive, class Cache, class Store>

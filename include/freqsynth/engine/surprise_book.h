@@ -75,6 +75,8 @@ class SurpriseBook {
   }
 
  private:
+  friend struct StateArchive;
+
   /// As many times as much is a surprise, not the next sample of an edge.
   static constexpr float many = 10;
   /// Before that all is a surprise.
