@@ -17,6 +17,7 @@
 #include "common/option_values.h"
 #include "common/output_file.h"
 #include "common/picture.h"
+#include "error_functions.h"
 #include "freqsynth/engine/executor.h"
 #include "freqsynth/engine/thread_pool.h"
 #include "freqsynth/freqsynth.h"
@@ -38,6 +39,7 @@ struct Options {
   std::vector<std::string> scenes;
   std::string cache, csv, pictures;
   std::size_t seeds = 3;
+  std::size_t functions = 0;
 };
 
 struct Subject {
@@ -235,7 +237,7 @@ void measure_all(const Options& options) {
 
 Options parse(int argc, const char** argv) {
   Options options;
-  std::string seeds;
+  std::string seeds, functions;
   OIIO::ArgParse parser;
   parser.intro("freqsynth_error: predicted and true errors of the scenes, as Markdown");
   parser.exit_on_error(false);
@@ -244,11 +246,13 @@ Options parse(int argc, const char** argv) {
   parser.arg("--pictures %s:DIR", &options.pictures)
       .help("Of each scene and rate: the picture, its predicted and its true error");
   parser.arg("--seeds %s:N", &seeds).help("Runs with different seeds (3)");
+  parser.arg("--functions %s:N", &functions).help("So many random functions in place of scenes");
   parser.arg("filename").hidden().action([&](OIIO::cspan<const char*> words) {
     options.scenes.emplace_back(words[0]);
   });
   if (parser.parse_args(argc, argv) < 0) throw UsageError(parser.geterror());
   read_count<std::size_t>("--seeds", seeds, 1, options.seeds);
+  read_count<std::size_t>("--functions", functions, 1, options.functions);
   return options;
 }
 
@@ -256,7 +260,13 @@ Options parse(int argc, const char** argv) {
 
 int main(int argc, const char** argv) {
   try {
-    measure_all(parse(argc, argv));
+    const Options options = parse(argc, argv);
+    if (options.functions > 0) {
+      freqsynth::ThreadPool pool;
+      std::fputs(quality::random_functions_table(options.functions, pool).c_str(), stdout);
+    } else {
+      measure_all(options);
+    }
     return 0;
   } catch (const UsageError& error) {
     std::fprintf(stderr, "freqsynth_error: %s\n", error.what());

@@ -44,6 +44,9 @@ void check_outputs(const Options& options) {
                   freqsynth::scaled_size(options.height, options.scale), channels);
   }
   if (!options.density.empty()) check_picture(options.density, options.width, options.height, 1);
+  if (!options.error.empty()) {
+    check_picture(options.error, options.width, options.height, channels);
+  }
   if (!options.stats.empty()) check_writable(options.stats);
   if (!options.checkpoint.empty()) check_writable(options.checkpoint);
   if (!options.frames.empty()) prepare_frames(options);

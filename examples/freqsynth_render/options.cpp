@@ -58,6 +58,8 @@ void describe_outputs(OIIO::ArgParse& parser, Options& options, Texts& texts) {
       .help("The picture: EXR and PFM hold linear values, PNG and JPEG are display-encoded (sRGB)");
   parser.arg("--density %s:FILE", &options.density)
       .help("Picture of the samples per block: black none, white the most");
+  parser.arg("--error %s:FILE", &options.error)
+      .help("Picture of the error that each pixel is expected to have");
   parser.arg("--frames %s:DIR", &options.frames)
       .help("Pictures at 1/64, 1/32 .. 2 samples per pixel of one run, and a contact sheet");
   parser.arg("--stats %s:FILE", &options.stats).help("Figures of the run as JSON");
@@ -177,8 +179,9 @@ void check_combinations(const Texts& texts, const Options& options) {
   refuse_if(!texts.tolerance.empty() && !options.until_quality,
             "--tolerance: needs --until-quality");
   refuse_if(options.output.empty() && !has_frames, "-o: no output file is named");
-  refuse_if(options.reference != 0 && (has_frames || !options.density.empty()),
-            "--reference: has no --frames and no --density");
+  refuse_if(
+      options.reference != 0 && (has_frames || !options.density.empty() || !options.error.empty()),
+      "--reference: has no --frames, no --density and no --error");
   refuse_if(options.reference != 0 && options.scale != 1, "--reference: has no --scale");
   const bool long_run = !options.checkpoint.empty() || !options.resume.empty();
   refuse_if(long_run && (options.reference != 0 || has_frames),

@@ -26,6 +26,7 @@ struct Options {
   double samples_per_pixel = 1;  // infinite: until the target is met
   std::string output;
   std::string density;           // empty: not wanted
+  std::string error;             // of the expected errors; empty: not wanted
   std::string frames;            // a folder; empty: not wanted
   std::string stats;             // empty: not wanted
   std::string checkpoint;        // a file for the state of the run; empty: not wanted

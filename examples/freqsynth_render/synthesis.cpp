@@ -204,6 +204,10 @@ class Synthesis {
     if (has_picture && !options_.density.empty()) {
       write_picture(options_.density, density_of(image));
     }
+    if (has_picture && !options_.error.empty()) {
+      write_picture(options_.error, {options_.width, options_.height, image.channels(),
+                                     engine_.error_image({.residuals = !options_.no_residuals})});
+    }
     if (!options_.stats.empty()) write_stats(options_, engine_.stats(), reason_, seconds_);
   }
 

@@ -348,5 +348,5 @@ FREQSYNTH_INLINE std::vector<BadSample> Synthesizer::bad_samples() const {
 
 }  // namespace freqsynth
 
-#include "freqsynth/synthesizer_saved.inl"
 #include "freqsynth/synthesizer_errors.inl"
+#include "freqsynth/synthesizer_saved.inl"

@@ -76,6 +76,7 @@ expect_refusal "a.nosuchformat" -o a.nosuchformat
 expect_refusal "taken: is a folder" -o a.png --stats taken
 expect_refusal "nowhere/a.json" -o a.png --stats nowhere/a.json
 expect_refusal "nowhere/a.png" -o b.png --density nowhere/a.png
+expect_refusal "nowhere/a.png" -o b.png --error nowhere/a.png
 expect_refusal "a.nosuchformat" -o a.png --density a.nosuchformat
 expect_refusal "said" -o a.png --frames said
 expect_refusal "taken/contact_sheet.png: is a folder" --frames taken
@@ -184,6 +185,12 @@ for field in samples absorbed blocks bad_samples sampler_seconds core_seconds wa
   grep -q "\"$field\": [0-9]" a.json || fail "a.json has no $field"
 done
 [[ -s a_density.png ]] || fail "no density"
+
+# The expected errors, smaller with more samples.
+"$program" "${small[@]}" --spp 1 -o a.exr --error a_error.pfm
+"$program" "${small[@]}" --spp 16 -o a.exr --error b_error.pfm
+[[ -s a_error.pfm ]] || fail "no errors"
+! cmp -s a_error.pfm b_error.pfm || fail "the expected errors do not change"
 
 # The same picture whatever the number of threads; another one with another seed.
 "$program" "${small[@]}" --threads 1 -o one.pfm

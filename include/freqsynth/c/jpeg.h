@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /* SPDX-License-Identifier: MIT */
 /** \file
  * The interface for C of the component `freqsynth::jpeg`: images to JPEG files, straight from their

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /* SPDX-License-Identifier: MIT */
 /** \file
  * The interface for C of what ends in a quantiser: the signal of JPEG, and the steps of its

@@ -42,7 +42,7 @@ inline BlockError error_of_detail(const BlockFit& fit, const ErrorEstimate::Know
   constexpr double at_first = 0.95, rate = 1.75, power = 1.35;
   constexpr double most = 0.5;     // of what samples leave that are not evenly spread
   constexpr double sooner = 2.5;   // samples per pixel: from then on smooth functions profit
-  constexpr double texture = 0.3;  // power
+  constexpr double texture = 0.4;  // power
   constexpr double edges = 1.33;   // residuals of edges, in the energy of highest terms, per term
   constexpr double least_ratio = 0.1, most_ratio = 8;
   const double w = samples_per_pixel(known);
