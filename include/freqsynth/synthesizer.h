@@ -49,8 +49,9 @@ struct SynthesisSettings {
 
   InverseListSettings list = {};   ///< the order of samples and terms
   PrioritySettings priority = {};  ///< which block is next
-  /// Blocks sampled between two choices; 1 is the paper's strict order, 0 chooses 1/32 of all
-  /// blocks.
+  /// Blocks sampled between two choices, each of which is asked for one sample or, once it has had
+  /// 25, for an eighth as many, up to 8; 0 chooses 1/32 of all blocks. 1 is the paper's strict
+  /// order: one sample of one block.
   std::size_t wave = 0;
   /// Most samples of a block, 1 .. SampleSequence::max_size. The default, a complete lattice of 257
   /// x 257, is about 1000 samples per pixel; the shared list takes 80 MB when a block gets there.
@@ -101,7 +102,7 @@ class FREQSYNTH_API Synthesizer {
   /// \throws std::invalid_argument when a rule is negative or not a number.
   void set_stop(const StopRule& stop);
 
-  /// Hands out up to out.size() positions, most urgent first, into the front of `out`.
+  /// Hands out up to out.size() positions of the wave, block by block, into the front of `out`.
   /// \param wait  what to do while the rest of the wave is out and owed by the host. A thread that
   ///              waits for what it owes itself waits for ever, or for the end of the time.
   /// \return how many. Fewer, when no more of the wave is left; none, when a stop rule holds, or

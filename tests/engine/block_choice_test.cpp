@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <set>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -43,8 +45,8 @@ class ScriptedMeasure {
   void use_units(const BlockView<ScriptedRefiner>&, float) {}
   [[nodiscard]] bool notice_noise(const BlockView<ScriptedRefiner>&) { return false; }
 
-  void absorbed(const BlockView<ScriptedRefiner>&, Block block, float change) {
-    script_->absorbed.push_back({block, change});
+  void absorbed(const BlockView<ScriptedRefiner>&, Block block, std::span<const float> changes) {
+    for (const float change : changes) script_->absorbed.push_back({block, change});
   }
   [[nodiscard]] float priority(const BlockView<ScriptedRefiner>&, Block block, float factor) const {
     script_->asked.push_back({block, factor});
@@ -164,8 +166,8 @@ TEST_F(BlockChoiceTest, FullBlocksAreAbsent) {
   for (const auto& [block, priority] : order(choice)) taken.push_back(block);
   EXPECT_EQ(taken, (std::vector<Block>{0, 1, 2, 3, 4, 5, 7, 8, 9, 10, 11}));
   sample(2);
-  BlockSet two(12);
-  two.add(2);
+  VisitPlan two(12);
+  two.add({.block = 2});
   choice.revise(view(), two, false);
   taken.clear();
   for (const auto& [block, priority] : order(choice)) taken.push_back(block);
@@ -193,9 +195,9 @@ TEST_F(BlockChoiceTest, WhatIsTakenIsAbsentUntilItIsRevised) {
   choice.take(9);
   EXPECT_EQ(choice.take(), 10u);
   EXPECT_EQ(choice.take(), 8u);
-  BlockSet some(12);
-  some.add(9);
-  some.add(11);
+  VisitPlan some(12);
+  some.add({.block = 9});
+  some.add({.block = 11});
   script_.priorities[9] = 3.5f;
   choice.revise(view(), some, false);
   EXPECT_EQ(choice.take(), 11u);
@@ -205,11 +207,11 @@ TEST_F(BlockChoiceTest, WhatIsTakenIsAbsentUntilItIsRevised) {
 
 TEST_F(BlockChoiceTest, TheMeasureHearsOfEverySample) {
   Choice choice(ScriptedMeasure(script_), factors_);
-  choice.absorbed(view(), 4, 0.5f);
-  choice.absorbed(view(), 2, 7);
-  choice.absorbed(view(), 4, infinity);
-  EXPECT_EQ(script_.absorbed,
-            (std::vector<std::pair<Block, float>>{{4, 0.5f}, {2, 7.0f}, {4, infinity}}));
+  choice.absorbed(view(), 4, std::array{0.5f});
+  choice.absorbed(view(), 2, std::array{7.0f, infinity, 1.0f});
+  choice.absorbed(view(), 4, std::array{infinity});
+  EXPECT_EQ(script_.absorbed, (std::vector<std::pair<Block, float>>{
+                                  {4, 0.5f}, {2, 7.0f}, {2, infinity}, {2, 1.0f}, {4, infinity}}));
 }
 
 TEST_F(BlockChoiceTest, RevisesWhoeverIsConcernedAndNoOneElse) {
@@ -223,9 +225,10 @@ TEST_F(BlockChoiceTest, RevisesWhoeverIsConcernedAndNoOneElse) {
   for (int repetition = 0; repetition < 300; ++repetition) {
     const bool always = random.below(3) == 0;
     script_.cares_below = random.below(4) == 0 ? infinity : 1;
-    BlockSet changed(12);
+    VisitPlan changed(12);
     for (std::size_t i = random.below(5); i > 0; --i) {
-      changed.add(static_cast<Block>(random.below(12)));
+      const auto block = static_cast<Block>(random.below(12));
+      if (!changed.contains(block)) changed.add({.block = block});
     }
     for (std::size_t b = 0; b < 12; ++b) {
       script_.priorities[b] = 1 + random.value();
@@ -235,10 +238,12 @@ TEST_F(BlockChoiceTest, RevisesWhoeverIsConcernedAndNoOneElse) {
     choice.revise(view(), changed, always);
 
     std::vector<float> expected = known;
-    for (const Block block : changed.members()) expected[block] = script_.priorities[block];
+    std::vector<Block> members;
+    for (const Visit& visit : changed.visits()) members.push_back(visit.block);
+    for (const Block block : members) expected[block] = script_.priorities[block];
     for (Block other = 0; other < 12; ++other) {
       bool told = false;
-      for (const Block block : changed.members()) {
+      for (const Block block : members) {
         const bool beside =
             (block / 3 == other / 3 && (block + 1 == other || other + 1 == block)) ||
             block + 3 == other || other + 3 == block;
@@ -252,8 +257,7 @@ TEST_F(BlockChoiceTest, RevisesWhoeverIsConcernedAndNoOneElse) {
     }
     ASSERT_EQ(order(choice), sorted(expected)) << "repetition " << repetition;
     // A measure keeps track of what it told: every block is asked once, whether it matters or not.
-    ASSERT_EQ(script_.asked_for_news,
-              std::vector(changed.members().begin(), changed.members().end()));
+    ASSERT_EQ(script_.asked_for_news, members);
     known = expected;
   }
   EXPECT_GT(told_in_all, 100u);
@@ -263,8 +267,8 @@ TEST_F(BlockChoiceTest, NoOneIsToldWithoutNews) {
   sample_all();
   Choice choice(ScriptedMeasure(script_), factors_);
   choice.revise_all(view());
-  BlockSet four(12);
-  four.add(4);
+  VisitPlan four(12);
+  four.add({.block = 4});
   const auto asked = [&](bool always) {
     script_.asked.clear();
     choice.revise(view(), four, always);
@@ -286,9 +290,9 @@ TEST_F(BlockChoiceTest, WhoCaresIsAskedWithItsPriority) {
   for (std::size_t b = 0; b < 12; ++b) script_.priorities[b] = static_cast<float>(10 + b);
   Choice choice(ScriptedMeasure(script_), factors_);
   choice.revise_all(view());
-  BlockSet changed(12);
-  changed.add(0);
-  changed.add(1);  // does not hear of block 0 again
+  VisitPlan changed(12);
+  changed.add({.block = 0});
+  changed.add({.block = 1});  // does not hear of block 0 again
   script_.news[0] = true;
   script_.cares_below = 0;
   choice.revise(view(), changed, false);

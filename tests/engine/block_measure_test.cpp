@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -120,7 +121,7 @@ TEST(ChangeMeasure, IsTheRunningAverageOfEachBlock) {
       const auto block = static_cast<Block>(random.below(6));
       const auto change = static_cast<float>(std::pow(random.uniform(0, 1.5), 6));
       image.blocks.absorb(block, &change);
-      measure.absorbed(image.view(), block, change);
+      measure.absorbed(image.view(), block, std::array{change});
       variations[block] = (1 - w) * variations[block] + w * static_cast<Real>(change);
       largest = std::max(largest, static_cast<Real>(change));
       const float factor = 0.25f * static_cast<float>(random.below(5));
@@ -140,7 +141,7 @@ TEST(ChangeMeasure, IsTheRunningAverageOfEachBlock) {
 TEST(ChangeMeasure, HasNothingToTell) {
   Image<ScriptedRefiner> image(2, 1, ScriptedRefiner({1}));
   ChangeMeasure measure({}, 2, 300);
-  measure.absorbed(image.view(), 0, 1000);
+  measure.absorbed(image.view(), 0, std::array{1000.0f});
   EXPECT_FALSE(measure.has_news(0));
   EXPECT_FALSE(measure.cares(1));
   EXPECT_FALSE(measure.cares(0));
@@ -154,13 +155,13 @@ TEST(ChangeMeasure, EndlessChangeStaysANumber) {
   float priority = 0;
   for (int n = 0; n < 300; ++n) {
     image.blocks.absorb(0, &value);
-    measure.absorbed(image.view(), 0, std::numeric_limits<float>::infinity());
+    measure.absorbed(image.view(), 0, std::array{std::numeric_limits<float>::infinity()});
     priority = measure.priority(image.view(), 0, 1);
     ASSERT_TRUE(std::isfinite(priority)) << "sample " << n;
     ASSERT_GT(priority, 1e25f);
   }
   // It is forgotten like any other.
-  for (int n = 0; n < 100; ++n) measure.absorbed(image.view(), 0, 0);
+  for (int n = 0; n < 100; ++n) measure.absorbed(image.view(), 0, std::array{0.0f});
   EXPECT_LT(measure.priority(image.view(), 0, 1), 1e-3f * priority);
 }
 
@@ -188,7 +189,7 @@ TEST(ChangeMeasure, SteeredCountsChangesAsTheyAreSeen) {
               steering.change(image.blocks, b, static_cast<float>(variations[b])));
         }
       }
-      measure.absorbed(image.view(), block, change);
+      measure.absorbed(image.view(), block, std::array{change});
       measure.use_units(image.view(), steering.settled() ? 4.0f : 1.0f);  // is not asked
       const std::size_t samples = image.blocks.samples(block);
       const Real u = static_cast<Real>(steering.variance()) *
@@ -310,11 +311,11 @@ TEST(ResidualMeasure, IsTheExpectedGainOfAPooledResidual) {
     const std::vector<float> no_residual(3);
     for (Block block = 0; block < 12; ++block) {
       image.blocks.absorb(block, no_residual.data());
-      measure.absorbed(image.view(), block, 0);
+      measure.absorbed(image.view(), block, std::array{0.0f});
     }
     int checks = 0;
     const auto check = [&](Block fed) {
-      measure.absorbed(image.view(), fed, 1e9f);  // changes do not count
+      measure.absorbed(image.view(), fed, std::array{1e9f});  // changes do not count
       if (++checks == 40) image.settle(3, 0.7f);
       if (checks % 10 != 0) return;
       Real mean = 0;
@@ -367,7 +368,7 @@ TEST(ResidualMeasure, SteeredPoolsResidualsAsTheyAreSeen) {
           image.blocks, b, [&](std::size_t c) { return image.blocks.residual(b, c); }));
     };
     const auto absorbed = [&](Block block) {
-      measure.absorbed(image.view(), block, 1e9f);
+      measure.absorbed(image.view(), block, std::array{1e9f});
       if (steering.absorbed(image.blocks, block)) {
         for (Block b = 0; b < 12; ++b) see(b);
       } else if (steering.settled()) {
@@ -423,7 +424,7 @@ TEST(ResidualMeasure, NoiseThatIsNoticedIsNoiseThatWasKnown) {
                             0.09f * static_cast<float>(random.uniform(-1, 1));
         image.blocks.absorb(block, &value);
         for (ResidualMeasure* one : {&noticed, &exact, &known}) {
-          one->absorbed(image.view(), block, 1);
+          one->absorbed(image.view(), block, std::array{1.0f});
         }
       }
     }
@@ -448,7 +449,7 @@ TEST(ResidualMeasure, NarrowBlocksCountByTheRootOfTheirArea) {
   const float value = 0.5f;
   for (Block block = 0; block < 2; ++block) {
     for (int i = 0; i < 30; ++i) image.blocks.absorb(block, &value);
-    measure.absorbed(image.view(), block, 0);
+    measure.absorbed(image.view(), block, std::array{0.0f});
   }
   ASSERT_EQ(image.blocks.residual(0), image.blocks.residual(1));
   const Real whole = static_cast<Real>(measure.priority(image.view(), 0, 1));
@@ -465,7 +466,7 @@ TEST(ResidualMeasure, WithoutResidualsTheRoundingIsLeft) {
   const float flat = 0;
   for (std::size_t samples = 1; samples <= 200; ++samples) {
     image.blocks.absorb(0, &flat);
-    measure.absorbed(image.view(), 0, 0);
+    measure.absorbed(image.view(), 0, std::array{0.0f});
     const auto n = static_cast<Real>(samples);
     // Of 2 times the power of a million and one; and least of all the order of the samples.
     const Real rounding = static_cast<Real>(2e-12) * 1000001;
@@ -483,7 +484,7 @@ TEST(ResidualMeasure, TellsOfItsResidualsAndListensAlways) {
   EXPECT_FALSE(measure.has_news(0));
   const float residual = 2;
   image.blocks.absorb(0, &residual);
-  measure.absorbed(image.view(), 0, 0);
+  measure.absorbed(image.view(), 0, std::array{0.0f});
   EXPECT_TRUE(measure.has_news(0));
   EXPECT_FALSE(measure.has_news(0));
   EXPECT_TRUE(measure.cares(0));
@@ -501,7 +502,7 @@ void expect_finite(const PrioritySettings& settings, Measure measure) {
       const float value = (n + n / 3) % 2 == 0 ? most_state_value : -most_state_value;
       const float values[] = {value, block % 2 == 0 ? value : -value};
       const float change = image.blocks.absorb(block, values);
-      measure.absorbed(image.view(), block, change);
+      measure.absorbed(image.view(), block, std::array{change});
     }
     for (Block block = 0; block < 4; ++block) {
       const float priority = measure.priority(image.view(), block, 1);

@@ -19,6 +19,8 @@ namespace {
 using helpers::ScriptedRefiner;
 using helpers::shared_list;
 
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
 TEST(BlockStore, CountsFollowATableThroughRandomSamples) {
   constexpr std::size_t blocks = 9, most = 12;
   BlockStore<ScriptedRefiner> store(ScriptedRefiner({1}), blocks, most);
@@ -102,7 +104,7 @@ TEST_P(Stores, BlocksAreThoseOfARefinerFedByHand) {
     std::vector<float> values;
     for (std::size_t c = 0; c < channels; ++c) values.push_back(random.value());
     ByHand& own = by_hand[block];
-    store.prefetch(block, own.samples);
+    store.prefetch(block, own.samples, 1);
     const float change = refiner.absorb(own.state.data(), own.samples++, values.data());
     ASSERT_EQ(store.absorb(block, values.data()), change);
     ASSERT_NO_FATAL_FAILURE(expect_same(store, block, refiner, own));
@@ -114,7 +116,6 @@ TEST_P(Stores, BlocksAreThoseOfARefinerFedByHand) {
 
 TEST(BlockStore, TellsWhichChannelsHadValuesBelowZero) {
   BlockStore<LeastSquaresRefiner> store(LeastSquaresRefiner(shared_list(), 4), 2, 1000);
-  const float infinity = std::numeric_limits<float>::infinity();
   for (const std::array<float, 4>& values :
        {std::array<float, 4>{0, 1, -infinity, 2}, {-0.0f, 3, 1, 0}, {1, -1e-30f, 1, 0}}) {
     store.absorb(1, values.data());
@@ -123,6 +124,53 @@ TEST(BlockStore, TellsWhichChannelsHadValuesBelowZero) {
   EXPECT_TRUE(store.any_negative(1));
   EXPECT_FALSE(store.any_negative(2)) << "a value that is not usable is none";
   EXPECT_FALSE(store.any_negative(3));
+}
+
+TEST(BlockStore, SeveralSamplesAtOnceAreTheSameOneAfterTheOther) {
+  constexpr std::size_t channels = 3, blocks = 4, most = 400;
+  const LeastSquaresRefiner refiner(shared_list(), channels);
+  BlockStore<LeastSquaresRefiner> one(refiner, blocks, most), several(refiner, blocks, most);
+  constexpr std::array exponents{2, 0, -5};
+  constexpr std::array weights{0.5f, 0.25f, 0.25f};
+  one.use_units(exponents, weights);
+  several.use_units(exponents, weights);
+  for (BlockStore<LeastSquaresRefiner>* store : {&one, &several}) {
+    store->reserve(blocks * most);
+  }
+  oracle::Random random(5);
+  for (std::size_t block = 0; block < blocks; ++block) {
+    while (!one.full(block)) {
+      const std::size_t count = std::min(random.below(40), most - one.samples(block));
+      std::vector<float> values;
+      for (std::size_t i = 0; i < channels * count; ++i) values.push_back(random.value() - 0.5f);
+      // Block 1 has bad values all the time, block 2 a single one.
+      if (count > 0 && block == 1) values[random.below(values.size())] = infinity;
+      if (block == 2 && one.samples(block) > 200 && !one.has_gaps(2, 1) && count > 0) {
+        values[1] = infinity;
+      }
+      std::vector<float> changes(count);
+      several.absorb(block, changes, [&](std::size_t i) { return values.data() + channels * i; });
+      for (std::size_t i = 0; i < count; ++i) {
+        ASSERT_EQ(one.absorb(block, values.data() + channels * i), changes[i]);
+      }
+      ASSERT_EQ(one.samples(block), several.samples(block));
+      ASSERT_EQ(one.informed(block), several.informed(block));
+    }
+    for (std::size_t c = 0; c < channels; ++c) {
+      std::vector<Gap> gaps, other_gaps;
+      const BlockFit fit = one.fit_without_gaps(block, c, gaps);
+      const BlockFit other = several.fit_without_gaps(block, c, other_gaps);
+      EXPECT_EQ(fit.coefficients, other.coefficients);
+      EXPECT_EQ(fit.residual, other.residual);
+      EXPECT_EQ(fit.spread, other.spread);
+      EXPECT_EQ(gaps.size(), other_gaps.size());
+      EXPECT_TRUE(
+          std::equal(fit.pixel_sums.begin(), fit.pixel_sums.end(), other.pixel_sums.begin()));
+    }
+  }
+  EXPECT_EQ(several.largest(), most);
+  EXPECT_EQ(several.untouched(), 0u);
+  EXPECT_TRUE(several.any_negative(0));
 }
 
 }  // namespace

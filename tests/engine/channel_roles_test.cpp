@@ -165,7 +165,7 @@ TEST(ChannelRoles, OnlyProportionsOfWeightsMatter) {
   expect_same(with({{}, {}, {}}), equal, "1");
   expect_same(with({{.weight = 1e-30f}, {.weight = 1e-30f}, {.weight = 1e-30f}}), equal, "1e-30");
   expect_same(with({{.weight = 1e6f}, {.weight = 1e6f}, {.weight = 1e6f}}), equal, "1e6");
-  EXPECT_NE(with({{.weight = 3}, {}, {}}).samples, equal.samples);
+  EXPECT_NE(with({{.weight = 30}, {}, {}}).samples, equal.samples);
 }
 
 // ------------------------------------------------------------------------------------ nearest

@@ -365,7 +365,7 @@ TEST(Abandon, OfChannelsOfAllRolesIsNoBadSample) {
 TEST(WaveSize, IsTheMostThatIsHandedOut) {
   for (const std::size_t wave : {0u, 1u, 7u, 100000u}) {
     Synthesizer engine(settings_of(60, 52, 1, wave));
-    engine.set_stop(at_samples(2000));
+    engine.set_stop(at_samples(10000));
     std::size_t largest = 0;
     std::vector<Request> requests(1000000);
     while (const std::size_t count = engine.request(requests)) {

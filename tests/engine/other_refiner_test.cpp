@@ -211,7 +211,7 @@ class FewestSamples {
     return false;
   }
   template <Refiner R>
-  void absorbed(const BlockView<R>&, std::uint32_t, float) {}
+  void absorbed(const BlockView<R>&, std::uint32_t, std::span<const float>) {}
   template <Refiner R>
   [[nodiscard]] float priority(const BlockView<R>& view, std::uint32_t block, float) const {
     return 1 / static_cast<float>(view.blocks.samples(block));

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -226,6 +227,22 @@ TEST(Wave, MemoryStaysWhereItWasReserved) {
     EXPECT_TRUE(wave.complete());
     EXPECT_EQ(&wave.slot(0), slots);
     EXPECT_EQ(wave.values(0), values);
+    wave.clear();
+  }
+}
+
+TEST(Wave, KeepsWhatWasKnownBefore) {
+  Wave wave(2);
+  for (int repetition = 0; repetition < 3; ++repetition) {
+    wave.reserve(1, 5);
+    for (std::uint32_t i = 0; i < 5; ++i) {
+      const std::array values{static_cast<float>(i), -static_cast<float>(i)};
+      wave.keep_known(values.data());
+    }
+    for (std::uint32_t i = 0; i < 5; ++i) {
+      EXPECT_EQ(wave.known(i)[0], static_cast<float>(i));
+      EXPECT_EQ(wave.known(i)[1], -static_cast<float>(i));
+    }
     wave.clear();
   }
 }

@@ -134,7 +134,7 @@ TEST_P(QuantizerPriority, IsTheErrorAboveTheTargetPerSample) {
     const auto residual = [&] { return static_cast<float>(std::exp(random.uniform(-4, 7))); };
     const float values[] = {residual(), residual()};
     image.blocks.absorb(block, values);
-    measure.absorbed(image.view(), block, 1);
+    measure.absorbed(image.view(), block, std::array{1.0f});
     if (n == 100) {
       const float corners[] = {1, -3, 5, 9};
       image.signal.add(corners);
@@ -165,7 +165,9 @@ TEST(QuantizerMeasure, NoiseThatIsNoticedIsNoiseThatWasKnown) {
   const float values[] = {300, 500};
   for (int n = 0; n < 200; ++n) {
     image.blocks.absorb(2, values);
-    for (QuantizerMeasure* one : {&noticed, &exact, &known}) one->absorbed(image.view(), 2, 1);
+    for (QuantizerMeasure* one : {&noticed, &exact, &known}) {
+      one->absorbed(image.view(), 2, std::array{1.0f});
+    }
   }
   EXPECT_LT(exact.priority(image.view(), 2, 1), known.priority(image.view(), 2, 1));
   EXPECT_TRUE(noticed.notice_noise(image.view()));
@@ -178,7 +180,7 @@ TEST(QuantizerMeasure, NoBlockIsDoneBeforeALattice) {
   const float flat[] = {0, 0};
   for (std::size_t n = 1; n < 60; ++n) {
     image.blocks.absorb(0, flat);
-    measure.absorbed(image.view(), 0, 0);
+    measure.absorbed(image.view(), 0, std::array{0.0f});
     const double expected = n < 25 ? 0.25 * 128 / 12 / static_cast<double>(n) : 0;
     EXPECT_NEAR(measure.priority(image.view(), 0, 1), expected, 1e-6 * expected) << n << " samples";
   }
@@ -189,13 +191,13 @@ TEST(QuantizerMeasure, NeighboursKeepABlockInDoubt) {
   QuantizerMeasure measure(target_of(0.25), {.uncertainty = 0}, false, 6, 300);
   const float flat[] = {0, 0}, busy[] = {1e5f, 0};
   for (int n = 0; n < 30; ++n) image.blocks.absorb(0, flat);
-  measure.absorbed(image.view(), 0, 0);
+  measure.absorbed(image.view(), 0, std::array{0.0f});
   EXPECT_EQ(measure.priority(image.view(), 0, 1), 0);
   image.blocks.absorb(4, busy);  // across the corner
-  measure.absorbed(image.view(), 4, 0);
+  measure.absorbed(image.view(), 4, std::array{0.0f});
   EXPECT_EQ(measure.priority(image.view(), 0, 1), 0);
   image.blocks.absorb(3, busy);
-  measure.absorbed(image.view(), 3, 0);
+  measure.absorbed(image.view(), 3, std::array{0.0f});
   EXPECT_GT(measure.priority(image.view(), 0, 1), 0);
 }
 
@@ -205,7 +207,7 @@ TEST(QuantizerMeasure, TellsOfItsResidualsThoseWhoAreDone) {
   EXPECT_FALSE(measure.has_news(2));
   const float values[] = {3, 4};
   image.blocks.absorb(2, values);
-  measure.absorbed(image.view(), 2, 0);
+  measure.absorbed(image.view(), 2, std::array{0.0f});
   EXPECT_TRUE(measure.has_news(2));
   EXPECT_FALSE(measure.has_news(2));
   EXPECT_TRUE(measure.cares(0));
@@ -229,7 +231,7 @@ TEST(QuantizerMeasure, IsANumberForTheLargestValuesAndTheSmallestSteps) {
     for (int n = 0; n < 400; ++n) {
       for (const Block block : {Block{0}, Block{1}}) {
         const float value = (n + n / 3) % 2 == 0 ? most_state_value : -most_state_value;
-        measure.absorbed(view, block, blocks.absorb(block, &value));
+        measure.absorbed(view, block, std::array{blocks.absorb(block, &value)});
         const float priority = measure.priority(view, block, 1);
         ASSERT_TRUE(std::isfinite(priority)) << "step " << step << ", sample " << n;
         if (std::isinf(step)) {

@@ -209,20 +209,20 @@ struct Configuration {
 };
 
 constexpr Configuration configurations[] = {
-    {"color", color, 0x250a62f0576ffda9u},
-    {"gray", gray, 0x98943a7c97047e6fu},
-    {"change", change, 0x3cf78ca4bb9c2f7du},
+    {"color", color, 0x6deee15d66456c18u},
+    {"gray", gray, 0x5ffbe803097c01efu},
+    {"change", change, 0x1bc9936aa4434647u},
     {"strict", strict, 0x54524a16bdf84efcu},
-    {"weighted", weighted, 0xc3cc5f9dc17c5ca2u},
-    {"noisy", noisy, 0xb8323ab7f61f036bu},
-    {"until_quantized", until_quantized, 0x36087b5cb6e76993u},
-    {"threshold", threshold, 0xb4db26908e677fc2u},
+    {"weighted", weighted, 0x835ed91e6ef2ec8bu},
+    {"noisy", noisy, 0x48ffb27fe9a0ea3au},
+    {"until_quantized", until_quantized, 0x9ed90a8c22dad437u},
+    {"threshold", threshold, 0xe8e4a171b62d6ff6u},
     {"capped", capped, 0x8e992b5183e04e6fu},
-    {"other_list", other_list, 0xfbfa0c2183dafff2u},
-    {"bad_values", bad_values, 0xe995796a1cb03523u},
-    {"high_range", high_range, 0xb4b80849403da258u},
-    {"many_channels", many_channels, 0xa9e14aa91bad1329u},
-    {"outputs", outputs, 0x1dae2995eb1d774du},
+    {"other_list", other_list, 0x1727332b8a27e57au},
+    {"bad_values", bad_values, 0x2a42b68fcfc52215u},
+    {"high_range", high_range, 0x524369e913731906u},
+    {"many_channels", many_channels, 0x96cf2baf8456bb5du},
+    {"outputs", outputs, 0xdc3593c1b5ad48dcu},
 };
 
 }  // namespace

@@ -14,7 +14,7 @@
 #include "freqsynth/basis/config.h"
 #include "freqsynth/engine/block_measure.h"
 #include "freqsynth/engine/block_queue.h"
-#include "freqsynth/engine/block_set.h"
+#include "freqsynth/engine/visit_plan.h"
 #include "freqsynth/refine/refiner.h"
 
 namespace freqsynth {
@@ -56,15 +56,15 @@ class BlockChoice {
   /// See BlockMeasure.
   bool notice_noise(const BlockView<R>& view) { return measure_.notice_noise(view); }
 
-  /// A block has taken in a sample, which changed it by `change`.
-  void absorbed(const BlockView<R>& view, std::uint32_t block, float change) {
-    measure_.absorbed(view, block, change);
+  /// A block has taken in samples, which changed it by `changes`, one after the other.
+  void absorbed(const BlockView<R>& view, std::uint32_t block, std::span<const float> changes) {
+    measure_.absorbed(view, block, changes);
   }
 
-  /// Puts blocks where they belong after these samples, and those beside them that have to hear of
+  /// Puts blocks where they belong after these visits, and those beside them that have to hear of
   /// it.
   /// \param always  blocks beside are told whether there is news or not
-  void revise(const BlockView<R>& view, const BlockSet& blocks, bool always);
+  void revise(const BlockView<R>& view, const VisitPlan& plan, bool always);
   /// Puts all blocks where they belong.
   void revise_all(const BlockView<R>& view);
 
@@ -115,14 +115,14 @@ float BlockChoice<R, M>::priority_of(const BlockView<R>& view, std::uint32_t blo
 }
 
 template <Refiner R, BlockMeasure<R> M>
-void BlockChoice<R, M>::revise(const BlockView<R>& view, const BlockSet& blocks, bool always) {
-  for (const std::uint32_t block : blocks.members()) {
-    queue_.update(block, priority_of(view, block));
+void BlockChoice<R, M>::revise(const BlockView<R>& view, const VisitPlan& plan, bool always) {
+  for (const Visit& visit : plan.visits()) {
+    queue_.update(visit.block, priority_of(view, visit.block));
   }
-  for (const std::uint32_t block : blocks.members()) {
-    if (!measure_.has_news(block) && !always) continue;
-    view.grid.visit_beside(block, [&](std::uint32_t other) {
-      if (blocks.contains(other) || !measure_.cares(queue_.priority(other))) return;
+  for (const Visit& visit : plan.visits()) {
+    if (!measure_.has_news(visit.block) && !always) continue;
+    view.grid.visit_beside(visit.block, [&](std::uint32_t other) {
+      if (plan.contains(other) || !measure_.cares(queue_.priority(other))) return;
       queue_.update(other, priority_of(view, other));
     });
   }

@@ -9,6 +9,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -33,15 +34,15 @@ struct BlockView {
 /// A measure of blocks that R refines. It keeps what it needs to know of each block.
 template <class M, class R>
 concept BlockMeasure = requires(M& measure, const M& known, const BlockView<R>& view,
-                                std::uint32_t block, float value) {
+                                std::uint32_t block, float value, std::span<const float> changes) {
   /// Blocks use other units from now on (BlockStore::use_units), in which a square over all
   /// channels is `value` times what it was.
   { measure.use_units(view, value) } -> std::same_as<void>;
   /// Values turn out to be estimates. Returns whether the priorities of all blocks are others by
   /// that.
   { measure.notice_noise(view) } -> std::same_as<bool>;
-  /// A block has taken in a sample, which changed it by `value`.
-  { measure.absorbed(view, block, value) } -> std::same_as<void>;
+  /// A block has taken in samples, at least one, which changed it by `changes` one after the other.
+  { measure.absorbed(view, block, changes) } -> std::same_as<void>;
   /// Priority of a block that has had a sample, and is not full; `value` is a factor on it. 0 when
   /// the block needs no more. Finite or not, but a number, and not negative.
   { known.priority(view, block, value) } -> std::same_as<float>;
@@ -96,20 +97,29 @@ class ChangeMeasure {
 
   /// See BlockMeasure.
   template <Refiner R>
-  void absorbed(const BlockView<R>& view, std::uint32_t block, float change) {
+  void absorbed(const BlockView<R>& view, std::uint32_t block, std::span<const float> changes) {
     // A plausible change is about that of a fit of T terms to n values in the signal's range.
-    const std::size_t taken = view.blocks.samples(block);
-    const auto samples = static_cast<float>(taken);
-    const auto terms = static_cast<float>(view.blocks.refiner().terms(taken));
     const float range = 8 * view.signal.most_variance(view.blocks.refiner().weights());
-    const float most = range * terms / (samples * samples);
-    // What was noted before the range was known may be larger than all of it.
     float& variation = variations_[block];
-    change = std::min(change, most);
-    if (steering_.linear()) {
-      variation = metric_.variation(std::min(variation, range), change);
-    } else {
-      absorb_steered(view.blocks, block, change);
+    std::size_t taken = view.blocks.samples(block) - changes.size();
+    for (const float change : changes) {
+      const auto samples = static_cast<float>(++taken);
+      const auto terms = static_cast<float>(view.blocks.refiner().terms(taken));
+      const float most = range * terms / (samples * samples);
+      const float plausible = std::min(change, most);
+      if (steering_.linear()) {
+        // What was noted before the range was known may be larger than all of it.
+        variation = metric_.variation(std::min(variation, range), plausible);
+      } else {
+        // As the block is shown to be now.
+        const bool known = steering_.settled();
+        variation = metric_.variation(
+            variation, known ? steering_.change(view.blocks, block, plausible) : plausible);
+      }
+    }
+    if (steering_.linear() || !steering_.absorbed(view.blocks, block, changes.size())) return;
+    for (std::uint32_t b = 0; b < view.blocks.size(); ++b) {
+      variations_[b] = steering_.change(view.blocks, b, variations_[b]);
     }
   }
 
@@ -129,17 +139,6 @@ class ChangeMeasure {
 
  private:
   friend struct StateArchive;
-  template <Refiner R>
-  void absorb_steered(const BlockStore<R>& blocks, std::uint32_t block, float change) {
-    float& variation = variations_[block];
-    if (steering_.settled()) change = steering_.change(blocks, block, change);
-    variation = metric_.variation(variation, change);
-    if (!steering_.absorbed(blocks, block)) return;
-    for (std::uint32_t b = 0; b < blocks.size(); ++b) {
-      variations_[b] = steering_.change(blocks, b, variations_[b]);
-    }
-  }
-
   PriorityMetric metric_;
   Steering steering_;
   std::vector<float> variations_;
@@ -160,7 +159,7 @@ class ResidualBook {
     for (float& residual : told_) residual *= factor;
   }
 
-  /// A block has taken in a sample.
+  /// A block has taken in samples.
   template <Refiner R>
   void absorbed(const BlockView<R>& view, std::uint32_t block) {
     note(block, plausible_residual(view, block));
@@ -247,10 +246,10 @@ class ResidualMeasure {
 
   /// See BlockMeasure.
   template <Refiner R>
-  void absorbed(const BlockView<R>& view, std::uint32_t block, float) {
+  void absorbed(const BlockView<R>& view, std::uint32_t block, std::span<const float> changes) {
     if (steering_.linear()) {
       book_.absorbed(view, block);
-    } else if (steering_.absorbed(view.blocks, block)) {
+    } else if (steering_.absorbed(view.blocks, block, changes.size())) {
       for (std::uint32_t b = 0; b < view.blocks.size(); ++b) note_steered(view, b);
     } else if (steering_.settled()) {
       note_steered(view, block);

@@ -54,9 +54,14 @@ class BlockStore {
 
   /// Takes in the next sample of a block that is not full. \return the refiner's measure of change.
   float absorb(std::size_t block, const float* values);
-  /// Hints that sample `index` of a block will be absorbed soon.
-  void prefetch(std::size_t block, std::size_t index) const {
-    refiner_.prefetch(state(block), index);
+  /// Takes in the next samples of a block that has room for them, as many as there are `changes`,
+  /// which receive the refiner's measure of each.
+  /// \param values  values(i) points to those of the i-th of them, one per channel
+  template <class Values>
+  void absorb(std::size_t block, std::span<float> changes, Values&& values);
+  /// Hints that a block will take in `count` samples from `index` on soon.
+  void prefetch(std::size_t block, std::size_t index, std::size_t count) const {
+    for (std::size_t i = 0; i < count; ++i) refiner_.prefetch(state(block), index + i);
   }
 
   // What the refiner says of a block; see the concept. Predictions in the place of values that are
@@ -142,6 +147,8 @@ class BlockStore {
   [[nodiscard]] float undiluted(std::size_t block) const {
     return refiner_.freedom(counts_[block]) / freedom(block);
   }
+  bool to_units(const float* values, float* out);
+  void absorb_run(std::size_t block, const float* values, std::span<float> changes);
   void note_gaps(std::size_t block, std::size_t index, const float* values);
   [[nodiscard]] float squares(std::size_t block, std::size_t channel) const;
   void remember(std::size_t block);
@@ -160,9 +167,11 @@ class BlockStore {
   std::vector<int> exponents_;
   std::vector<float> factors_;          // of a value: 1 / unit
   std::vector<std::uint8_t> negative_;  // 1: a channel's values are not all positive or 0
-  std::vector<float> values_;           // of a sample in the channels' units
+  std::vector<float> values_;           // of `most_together` samples in the channels' units
   SurpriseBook surprises_;
   std::vector<float> before_;  // of each channel, see remember()
+
+  static constexpr std::size_t most_together = 16;
 };
 
 // ------------------------------------------------------------------------------------ definitions
@@ -179,7 +188,7 @@ BlockStore<R>::BlockStore(R refiner, std::size_t blocks, std::size_t most_sample
   exponents_.assign(refiner_.channels(), 0);
   factors_.assign(refiner_.channels(), 1.0f);
   negative_.resize(refiner_.channels());
-  values_.resize(refiner_.channels());
+  values_.resize(most_together * refiner_.channels());
   constexpr std::size_t line = detail::alignment / sizeof(float);
   stride_ = (refiner_.state_size() + line - 1) / line * line;
   states_.resize(blocks * stride_);
@@ -206,79 +215,6 @@ void BlockStore<R>::use_units(std::span<const int> exponents, std::span<const fl
 }
 
 template <Refiner R>
-float BlockStore<R>::absorb(std::size_t block, const float* values) {
-  FREQSYNTH_ASSERT(!full(block));
-  keep(block);
-  std::uint32_t& count = counts_[block];
-  if (count == 0) --untouched_;
-  bool bad = false;
-  for (std::size_t c = 0; c < factors_.size(); ++c) {
-    // What is not usable in the host's unit is not in any.
-    const bool usable = is_usable_sample(values[c]);
-    values_[c] = usable ? values[c] * factors_[c] : std::bit_cast<float>(0x7fc00000u);
-    bad = bad || !usable;
-    if (usable && values[c] < 0) negative_[c] = 1;
-  }
-  if (bad || gaps_.any(block)) [[unlikely]] {
-    note_gaps(block, count, values_.data());
-  }
-  remember(block);
-  const float change = refiner_.absorb(states_.data() + block * stride_, count, values_.data());
-  ++count;
-  note_surprises(block, count - 1);
-  largest_ = std::max<std::size_t>(largest_, count);
-  return change;
-}
-
-/// Sum of the squares that a block's fit leaves over of a channel.
-template <Refiner R>
-float BlockStore<R>::squares(std::size_t block, std::size_t channel) const {
-  if constexpr (requires { refiner_.squared_residuals(state(block), channel); }) {
-    return refiner_.squared_residuals(state(block), channel);
-  } else {
-    return refiner_.residual(state(block), counts_[block], channel) *
-           refiner_.freedom(counts_[block]);
-  }
-}
-
-/// Before a block takes in samples.
-template <Refiner R>
-void BlockStore<R>::remember(std::size_t block) {
-  for (std::size_t c = 0; c < before_.size(); ++c) before_[c] = squares(block, c);
-}
-
-/// And afterwards. \param before  samples that it had had
-template <Refiner R>
-void BlockStore<R>::note_surprises(std::size_t block, std::size_t before) {
-  const std::size_t now = counts_[block];
-  surprises_.count(before, now - before);
-  for (std::size_t c = 0; c < before_.size(); ++c) {
-    const float left = squares(block, c);
-    if (!(left > 2 * before_[c])) [[likely]]
-      continue;
-    surprises_.note(c, {before, before_[c], refiner_.freedom(before)},
-                    {now, left, refiner_.freedom(now)});
-  }
-}
-
-/// Before a block takes in a sample.
-template <Refiner R>
-void BlockStore<R>::note_gaps(std::size_t block, std::size_t index, const float* values) {
-  if constexpr (FillsGaps<R>) {
-    const std::span<const float> weights = refiner_.weights();
-    bool missing = false;
-    for (std::size_t c = 0; c < factors_.size(); ++c) {
-      const bool usable = is_usable_sample(values[c]);
-      missing = missing || (!usable && weights[c] > 0);
-      const float prediction = refiner_.prediction(state(block), index, c);
-      if (!usable) gaps_.add(block, c, index, prediction);
-      if (usable && detail::is_nan(prediction)) gaps_.start(block, c, values[c]);
-    }
-    missing_[block] += missing ? 1 : 0;
-  }
-}
-
-template <Refiner R>
 BlockFit BlockStore<R>::fit_without_gaps(std::size_t block, std::size_t channel,
                                          std::vector<Gap>& gaps) const {
   if constexpr (FillsGaps<R>) {
@@ -291,3 +227,5 @@ BlockFit BlockStore<R>::fit_without_gaps(std::size_t block, std::size_t channel,
 }
 
 }  // namespace freqsynth
+
+#include "freqsynth/engine/block_store.inl"

@@ -27,7 +27,6 @@
 #include "freqsynth/engine/block_choice.h"
 #include "freqsynth/engine/block_grid.h"
 #include "freqsynth/engine/block_measure.h"
-#include "freqsynth/engine/block_set.h"
 #include "freqsynth/engine/block_snapshot.h"
 #include "freqsynth/engine/block_store.h"
 #include "freqsynth/engine/channel_units.h"
@@ -40,6 +39,7 @@
 #include "freqsynth/engine/signal_statistics.h"
 #include "freqsynth/engine/stop_meter.h"
 #include "freqsynth/engine/stop_rule.h"
+#include "freqsynth/engine/visit_plan.h"
 #include "freqsynth/engine/waiting_room.h"
 #include "freqsynth/engine/wave.h"
 #include "freqsynth/refine/refiner.h"
@@ -53,7 +53,7 @@ template <Refiner R, BlockMeasure<R> M>
 class Engine {
  public:
   /// \param factors      factor on the priority of each block of the grid
-  /// \param wave         most blocks of a wave; 0: 1/32 of all blocks
+  /// \param wave         most blocks of a wave; 1: one sample of one block; 0: 1/32 of all blocks
   /// \param exploration  see PrioritySettings::exploration
   /// \param seed         of Request::seed
   /// \param noise        whether `measure` is to be told of noise once it is seen
@@ -83,7 +83,10 @@ class Engine {
   /// How far it is.
   [[nodiscard]] Progress progress() const;
   /// Most positions that request() hands out before values have to come back.
-  [[nodiscard]] std::size_t wave_size() const { return wave_size_ + NoiseProbes::most(wave_size_); }
+  [[nodiscard]] std::size_t wave_size() const {
+    const std::size_t most = wave_size_ * longest_visit_;
+    return most + NoiseProbes::most(most);
+  }
   /// Whether values are taken for estimates by now.
   [[nodiscard]] bool noisy() const {
     const std::lock_guard lock(mutex_);
@@ -148,22 +151,33 @@ class Engine {
   static void list_wave(Archive& archive, Self& self);
   std::optional<StopReason> prepare_wave();
   std::optional<StopReason> choose_wave();
-  void reserve(std::size_t most);
-  void choose(std::uint32_t block);
-  void choose_lagging(std::size_t most);
-  void choose_least_sampled(std::size_t most);
+  /// How much may be chosen for a wave.
+  struct Portion {
+    std::size_t blocks = 0;  // that are visited
+    std::size_t visit = 0;   // samples of each
+  };
+  [[nodiscard]] Portion portion() const;
+  void reserve(const Portion& most);
+  void choose(std::uint32_t block, std::size_t samples);
+  void choose_lagging(const Portion& most);
+  void choose_least_sampled(const Portion& most);
   [[nodiscard]] StopReason reason(StopReason why) const;
-  [[nodiscard]] bool asked_by_neighbour(std::uint32_t block, std::uint32_t index) const;
+  // What the chosen blocks ask for; see engine_plan.inl.
+  void plan_visits();
+  [[nodiscard]] std::uint32_t asked_end(std::uint32_t block) const;
+  void lengthen(std::uint32_t block);
+  void ask(Visit& visit);
+  ValueSource source_of(std::uint32_t block, std::uint32_t index);
   [[nodiscard]] Request make_request(std::uint32_t slot) const;
   void claim(std::span<const Request> requests);
   void finish_wave();
   [[nodiscard]] bool take_in_repeated();
   bool take_in_repeated(const Wave::Slot& slot, const float* values);
   void change_units();
-  void route(const Wave::Slot& slot, const float* values);
   void note(std::size_t slot);
-  void absorb(std::uint32_t block, const float* values);
-  void advance(std::uint32_t block);
+  void take_known();
+  void absorb(const Visit& visit);
+  void keep_for_others(std::uint32_t slot);
 
   BlockGrid grid_;
   BlockStore<R> blocks_;
@@ -176,9 +190,16 @@ class Engine {
   NearestSamples nearest_;
   NoiseProbes probes_;
   Noise noise_;
-  BlockSet touched_;     // blocks that the wave asks for, or that it has changed
-  std::uint64_t frame_;  // the seed, mixed
-  std::size_t wave_size_;
+  VisitPlan plan_;                      // of the wave
+  std::vector<std::uint32_t> borders_;  // slots whose position other blocks have, too
+  struct Known {
+    std::uint32_t block, index;
+  };
+  std::vector<Known> known_;    // samples that the cache has
+  std::vector<float> changes_;  // of the samples of a visit
+  std::uint64_t frame_;         // the seed, mixed
+  std::size_t wave_size_;       // blocks
+  std::size_t longest_visit_;   // samples
   Exploration exploration_;
   double shares_ = 0;                          // of all blocks, see BlockChoice::share()
   std::optional<std::vector<float>> factors_;  // that are to be used from the next wave on

@@ -6,6 +6,7 @@
 #include "freqsynth/engine/engine.h"
 #include "freqsynth/engine/engine_choice.inl"
 #include "freqsynth/engine/engine_end.inl"
+#include "freqsynth/engine/engine_plan.inl"
 #include "freqsynth/engine/engine_requests.inl"
 #include "freqsynth/engine/engine_saved.inl"
 
@@ -25,11 +26,12 @@ Engine<R, M>::Engine(const BlockGrid& grid, BlockStore<R> blocks, M measure,
       pixels_(grid),
       nearest_(grid, nearest),
       noise_(noise),
-      touched_(grid.size()),
+      plan_(grid.size()),
       frame_(detail::mix_bits(seed + detail::golden_step)),
       exploration_(exploration, grid.size()) {
   const std::size_t most = std::max<std::size_t>(grid.size(), 1);
   wave_size_ = wave != 0 ? std::min(wave, most) : std::max<std::size_t>(most / 32, 1);
+  longest_visit_ = wave == 1 ? 1 : longest_visit(blocks_.most_samples());
   stats_.blocks = grid.size();
   shares_ = choice_.shares();
   blocks_.use_units(units_.exponents(), units_.weights());
@@ -51,30 +53,35 @@ void Engine<R, M>::set_factors(std::vector<float> factors) {
 template <Refiner R, BlockMeasure<R> M>
 void Engine<R, M>::finish_wave() {
   // The states of blocks lie all over the memory: fetch those that come soon.
-  constexpr std::size_t ahead = 6;
+  constexpr std::size_t ahead = 4;
   const bool others = take_in_repeated();
   if (!units_.fit(wave_.values())) change_units();
-  for (std::size_t i = 0; i < wave_.samples(); ++i) {
-    if (i + ahead < wave_.samples()) {
-      const Wave::Slot& soon = wave_.slot(i + ahead);
-      blocks_.prefetch(soon.block, soon.index);
+  for (std::size_t i = 0; i < wave_.samples(); ++i) note(i);
+  take_known();
+  const std::span<const Visit> visits = plan_.visits();
+  for (std::size_t i = 0; i < visits.size(); ++i) {
+    if (i + ahead < visits.size()) {
+      const Visit& soon = visits[i + ahead];
+      blocks_.prefetch(soon.block, soon.first, soon.count);
     }
-    note(i);
-    route(wave_.slot(i), wave_.values(i));
+    absorb(visits[i]);
   }
+  for (const std::uint32_t slot : borders_) keep_for_others(slot);
   stats_.samples += wave_.samples();
   stats_.probes += wave_.size() - wave_.samples();
   ++stats_.waves;
   wave_.clear();
+  borders_.clear();
+  known_.clear();
   if (blocks_.untouched() == 0 && !signal_.settled()) {
     signal_.settle(blocks_.refiner().weights());
     choice_.revise_all(view());
   } else if (others) {
     choice_.revise_all(view());
   } else {
-    choice_.revise(view(), touched_, wave_size_ == 1);
+    choice_.revise(view(), plan_, wave_size_ == 1);
   }
-  touched_.clear();
+  plan_.clear();
 }
 
 /// Compares the values of positions that were asked for twice. \return whether all priorities are
@@ -162,44 +169,39 @@ void Engine<R, M>::note(std::size_t number) {
   }
 }
 
-/// Gives a sample to all blocks that it belongs to: now to those that it is the next one of, later
-/// to the others.
+/// Takes what is known of the visits' samples out of the cache.
 template <Refiner R, BlockMeasure<R> M>
-void Engine<R, M>::route(const Wave::Slot& slot, const float* values) {
-  const std::size_t channels = blocks_.refiner().channels();
-  std::array<std::uint32_t, 4> absorbing{slot.block};
-  std::size_t count = 1;
-  absorb(slot.block, values);
-  grid_.visit_sharing(
-      slot.block, position(slot.index), [&](std::uint32_t other, std::uint32_t index) {
-        if (index >= blocks_.most_samples()) return;
-        if (blocks_.samples(other) == index) {
-          absorb(other, values);
-          absorbing[count++] = other;
-        } else {
-          cache_.put(grid_.column(other), grid_.row(other), position(index), {values, channels});
-        }
-      });
-  for (std::size_t i = 0; i < count; ++i) advance(absorbing[i]);
-}
-
-template <Refiner R, BlockMeasure<R> M>
-void Engine<R, M>::absorb(std::uint32_t block, const float* values) {
-  const float change = blocks_.absorb(block, values);
-  choice_.absorbed(view(), block, change);
-  ++stats_.absorbed;
-  touched_.add(block);
-}
-
-/// Lets a block take in what is known of its next samples.
-template <Refiner R, BlockMeasure<R> M>
-void Engine<R, M>::advance(std::uint32_t block) {
-  while (!blocks_.full(block)) {
+void Engine<R, M>::take_known() {
+  for (const Known& one : known_) {
     const float* values =
-        cache_.take(grid_.column(block), grid_.row(block), position(blocks_.samples(block)));
-    if (values == nullptr) return;
-    absorb(block, values);
+        cache_.take(grid_.column(one.block), grid_.row(one.block), position(one.index));
+    FREQSYNTH_ASSERT(values != nullptr);
+    wave_.keep_known(values);
   }
+}
+
+template <Refiner R, BlockMeasure<R> M>
+void Engine<R, M>::absorb(const Visit& visit) {
+  const std::span<float> changes = std::span(changes_).first(visit.count);
+  blocks_.absorb(visit.block, changes, [&](std::size_t i) {
+    const auto index = visit.first + static_cast<std::uint32_t>(i);
+    const ValueSource& source = plan_.source(visit, index);
+    return source.known ? wave_.known(source.number) : std::as_const(wave_).values(source.number);
+  });
+  choice_.absorbed(view(), visit.block, changes);
+  stats_.absorbed += visit.count;
+}
+
+/// Gives a sample to the blocks that will need it later.
+template <Refiner R, BlockMeasure<R> M>
+void Engine<R, M>::keep_for_others(std::uint32_t slot) {
+  const Wave::Slot& asked = wave_.slot(slot);
+  const SequencePosition& place = position(asked.index);
+  grid_.visit_sharing(asked.block, place, [&](std::uint32_t other, std::uint32_t index) {
+    if (index >= blocks_.most_samples() || index < blocks_.samples(other)) return;
+    cache_.put(grid_.column(other), grid_.row(other), position(index),
+               {wave_.values(slot), blocks_.refiner().channels()});
+  });
 }
 
 template <Refiner R, BlockMeasure<R> M>

@@ -17,6 +17,7 @@ template <Refiner R, BlockMeasure<R> M>
 std::optional<StopReason> Engine<R, M>::prepare_wave() {
   use_factors();
   const std::optional<StopReason> reason = choose_wave();
+  plan_visits();
   probes_.visit(stats_.samples, wave_.samples(),
                 [&](std::size_t slot) { wave_.repeat(static_cast<std::uint32_t>(slot)); });
   return reason;
@@ -29,7 +30,7 @@ std::optional<StopReason> Engine<R, M>::choose_wave() {
   if (!any_usable_ && blocks_.untouched() == 0 && stats_.samples >= patience_) {
     return reason(StopReason::exhausted);
   }
-  const std::size_t most = std::min<std::uint64_t>(wave_size_, stop_.samples - stats_.samples);
+  const Portion most = portion();
   reserve(most);
   // In the unit of the priorities. Of a signal that is all 0 so far, everything is below it.
   const int exponent = choice_.in_units() ? units_.exponent() : 0;
@@ -37,60 +38,85 @@ std::optional<StopReason> Engine<R, M>::choose_wave() {
   const double square = units_.known() || rule == 0 ? rule * rule : double{most_priority};
   const auto threshold = static_cast<float>(std::min(square, double{most_priority}));
   choose_lagging(most);
-  while (wave_.size() < most && choice_.top_priority() > threshold) choose(choice_.take());
-  if (!wave_.empty()) return std::nullopt;
+  const std::size_t visit = exploration_.even() ? 1 : most.visit;
+  while (plan_.size() < most.blocks && choice_.top_priority() > threshold) {
+    choose(choice_.take(), visit);
+  }
+  if (!plan_.empty()) return std::nullopt;
   if (choice_.top_priority() < 0) return reason(StopReason::exhausted);
   if (stop_.aliasing_threshold > 0) choose_least_sampled(most);
-  return wave_.empty() ? std::optional(reason(StopReason::threshold)) : std::nullopt;
+  return plan_.empty() ? std::optional(reason(StopReason::threshold)) : std::nullopt;
 }
 
-/// Takes all memory that a wave of `most` positions needs until its values are absorbed, so that
-/// nothing can fail on the way.
+/// One sample a visit where more could be too many.
 template <Refiner R, BlockMeasure<R> M>
-void Engine<R, M>::reserve(std::size_t most) {
-  const std::size_t slots = most + NoiseProbes::most(most);
-  wave_.reserve(slots);
+typename Engine<R, M>::Portion Engine<R, M>::portion() const {
+  const std::uint64_t left = stop_.samples - stats_.samples;
+  const std::size_t longest =
+      std::min(longest_visit_, longest_visit(std::max<std::size_t>(blocks_.largest(), 1)));
+  if (left / longest >= wave_size_) return {wave_size_, longest};
+  return {static_cast<std::size_t>(std::min<std::uint64_t>(wave_size_, left)), 1};
+}
+
+/// Takes all memory that a wave needs until its values are absorbed, so that nothing can fail on
+/// the way.
+template <Refiner R, BlockMeasure<R> M>
+void Engine<R, M>::reserve(const Portion& most) {
+  const std::size_t samples = most.blocks * most.visit;
+  const std::size_t slots = samples + NoiseProbes::most(samples);
+  // A sample on an edge goes to two blocks. One at a corner goes to four, each of which may go on
+  // with its other corners; the blocks that ask for corners ask for one sample each. And each block
+  // may take in what waits for it.
+  const std::size_t known = 20 * most.blocks + cache_.waiting();
+  wave_.reserve(slots, known);
+  plan_.reserve(2 * samples + known);
+  borders_.reserve(samples);
+  if (known > known_.capacity()) known_.reserve(std::max(known, 2 * known_.capacity()));
   pixels_.reserve(slots);
-  // Each sample goes to up to four blocks, and each may go on with its corners and what waits.
-  blocks_.reserve(20 * most + cache_.waiting());
-  cache_.reserve(most);
-  bad_.reserve(std::min(bad_.size() + most, most_bad_reported));
-  // With its own sample a block may take in what its neighbours know before and after it.
-  const std::size_t reach = 2 * SampleSequence::longest_border_run + 2;
+  blocks_.reserve(2 * samples + known);
+  cache_.reserve(samples);
+  bad_.reserve(std::min(bad_.size() + samples, most_bad_reported));
+  // Beside its own samples a block may take in what its neighbours know before and after them.
+  const std::size_t reach = most.visit + 2 * SampleSequence::longest_border_run + 2;
+  if (changes_.size() < reach) changes_.resize(reach);
   blocks_.refiner().list().reserve(std::min(blocks_.largest() + reach, blocks_.most_samples()));
 }
 
 template <Refiner R, BlockMeasure<R> M>
-void Engine<R, M>::choose(std::uint32_t block) {
-  const std::uint32_t index = blocks_.samples(block);
-  if (!asked_by_neighbour(block, index)) wave_.add({block, index});
-  touched_.add(block);
+void Engine<R, M>::choose(std::uint32_t block, std::size_t samples) {
+  const std::uint32_t first = blocks_.samples(block);
+  const std::uint32_t asked =
+      visit_length(first, std::min<std::size_t>(samples, blocks_.most_samples() - first));
+  plan_.add({.block = block, .first = first, .asked = asked, .count = asked});
 }
 
 /// Chooses blocks that have stayed behind the others.
 template <Refiner R, BlockMeasure<R> M>
-void Engine<R, M>::choose_lagging(std::size_t most) {
+void Engine<R, M>::choose_lagging(const Portion& most) {
   if (shares_ == 0 || blocks_.untouched() != 0) return;
   const auto lags = [&](std::uint32_t block, double least) {
     return blocks_.samples(block) < least * double{choice_.share(block)} && !blocks_.full(block);
   };
   exploration_.update(static_cast<double>(stats_.absorbed) / shares_, lags);
   exploration_.visit(lags, [&](std::uint32_t block) {
-    if (wave_.size() >= most) return false;
+    if (plan_.size() >= most.blocks) return false;
+    const double lag = exploration_.least() * double{choice_.share(block)} -
+                       static_cast<double>(blocks_.samples(block));
     choice_.take(block);
-    choose(block);
+    choose(block, std::min(most.visit, static_cast<std::size_t>(std::ceil(lag))));
     return true;
   });
 }
 
 /// Chooses blocks that the threshold may not pass over yet.
 template <Refiner R, BlockMeasure<R> M>
-void Engine<R, M>::choose_least_sampled(std::size_t most) {
-  for (std::uint32_t block = 0; block < blocks_.size() && wave_.size() < most; ++block) {
-    if (blocks_.samples(block) >= stop_.least_samples) continue;
+void Engine<R, M>::choose_least_sampled(const Portion& most) {
+  for (std::uint32_t block = 0; block < blocks_.size() && plan_.size() < most.blocks; ++block) {
+    const std::size_t samples = blocks_.samples(block);
+    if (samples >= stop_.least_samples) continue;
     if (blocks_.full(block) || !choice_.wanted(block)) continue;
     choice_.take(block);
-    choose(block);
+    choose(block, std::min(most.visit, stop_.least_samples - samples));
   }
 }
 
@@ -98,15 +124,6 @@ void Engine<R, M>::choose_least_sampled(std::size_t most) {
 template <Refiner R, BlockMeasure<R> M>
 StopReason Engine<R, M>::reason(StopReason why) const {
   return stats_.samples > 0 && !any_usable_ ? StopReason::unusable : why;
-}
-
-template <Refiner R, BlockMeasure<R> M>
-bool Engine<R, M>::asked_by_neighbour(std::uint32_t block, std::uint32_t index) const {
-  bool asked = false;
-  grid_.visit_sharing(block, position(index), [&](std::uint32_t other, std::uint32_t other_index) {
-    asked = asked || (touched_.contains(other) && blocks_.samples(other) == other_index);
-  });
-  return asked;
 }
 
 }  // namespace freqsynth

@@ -62,19 +62,28 @@ void Engine<R, M>::list_parts(Archive& archive, Self& self) {
 template <Refiner R, BlockMeasure<R> M>
 template <class Archive, class Self>
 void Engine<R, M>::list_wave(Archive& archive, Self& self) {
-  std::vector<std::uint32_t> chosen(self.touched_.members().begin(), self.touched_.members().end());
-  archive.list(chosen, self.grid_.size());
+  std::vector<Visit> chosen;
+  for (const Visit& visit : self.plan_.visits()) {
+    if (visit.asked > 0) chosen.push_back(visit);
+  }
+  archive.list(chosen, self.grid_.size(), [&](auto& visit) {
+    archive.number(visit.block);
+    archive.number(visit.asked);
+    archive.check(visit.asked >= 1 && visit.asked <= self.longest_visit_);
+  });
   std::vector<std::uint32_t> repeated;
   for (std::size_t i = self.wave_.samples(); i < self.wave_.size(); ++i) {
     repeated.push_back(self.wave_.slot(i).repeated);
   }
   if constexpr (Archive::loading) {
-    if (!chosen.empty()) self.reserve(chosen.size());
-    for (const std::uint32_t block : chosen) {
-      archive.check(block < self.grid_.size() && !self.touched_.contains(block) &&
-                    !self.blocks_.full(block));
-      self.choose(block);
+    if (!chosen.empty()) self.reserve({chosen.size(), self.longest_visit_});
+    for (const Visit& visit : chosen) {
+      archive.check(visit.block < self.grid_.size() && !self.plan_.contains(visit.block));
+      const std::uint32_t first = self.blocks_.samples(visit.block);
+      archive.check(visit.asked <= self.blocks_.most_samples() - first);
+      self.plan_.add({visit.block, first, visit.asked, visit.asked});
     }
+    self.plan_visits();
   }
   archive.list(repeated, NoiseProbes::most(self.wave_.samples()));
   if constexpr (Archive::loading) {

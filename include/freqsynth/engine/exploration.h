@@ -35,6 +35,8 @@ class Exploration {
   template <class Lags, class Take>
   void visit(Lags&& lags, Take&& take);
 
+  /// Whether all blocks are to have the same number of samples.
+  [[nodiscard]] bool even() const { return exponent_ == 1; }
   /// Samples that every block should have by now.
   [[nodiscard]] double least() const { return least_; }
 

@@ -42,10 +42,10 @@ class Steering {
   /// Whether anything is known: once every block has had a sample.
   [[nodiscard]] bool settled() const { return settled_; }
 
-  /// A block has taken in a sample. \return whether it was the one that settled the steering: then
-  /// all blocks are worth something else. Does not allocate.
+  /// A block has taken in `taken` >= 1 samples. \return whether they settled the steering: then all
+  /// blocks are worth something else. Does not allocate.
   template <Refiner R>
-  bool absorbed(const BlockStore<R>& blocks, std::uint32_t block);
+  bool absorbed(const BlockStore<R>& blocks, std::uint32_t block, std::size_t taken = 1);
 
   /// The sampler turns out to return Monte Carlo estimates: as if it had been known.
   template <Refiner R>
@@ -127,16 +127,16 @@ inline Steering::Steering(const PrioritySettings& settings, bool noisy, std::vec
 }
 
 template <Refiner R>
-bool Steering::absorbed(const BlockStore<R>& blocks, std::uint32_t block) {
+bool Steering::absorbed(const BlockStore<R>& blocks, std::uint32_t block, std::size_t taken) {
   if (!settled_) {
     if (blocks.untouched() != 0) return false;
     settle(blocks);
     return true;
   }
   // What a block shows changes little once it is known.
-  const std::uint32_t samples = blocks.samples(block);
-  const std::uint32_t step = samples < 16 ? 1 : samples < 64 ? 4 : 16;
-  if (samples % step == 0) look_at(blocks, block);
+  const std::size_t samples = blocks.samples(block);
+  const std::size_t step = samples < 16 ? 1 : samples < 64 ? 4 : 16;
+  if (samples / step != (samples - taken) / step) look_at(blocks, block);
   return false;
 }
 

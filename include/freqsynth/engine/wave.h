@@ -39,8 +39,8 @@ class Wave {
   explicit Wave(std::size_t channels, std::size_t nearest = 0)
       : channels_(channels), nearest_(nearest) {}
 
-  /// Makes room for `most` slots.
-  void reserve(std::size_t most);
+  /// Makes room for `most` slots, and for the values of `known` samples that are known before.
+  void reserve(std::size_t most, std::size_t known = 0);
   /// Adds a slot, for which there is room. It repeats none.
   void add(const Slot& slot);
   /// Adds a slot that asks for the position of another one once more. No slot is added then but
@@ -104,6 +104,13 @@ class Wave {
   /// The values of a slot that was delivered, to change them.
   [[nodiscard]] float* values(std::size_t slot) { return values_.data() + slot * channels_; }
 
+  /// Keeps a copy of the values of a sample that was known before the wave; there is room for it.
+  void keep_known(const float* values);
+  /// Those of the `number`-th such sample, counted from 0.
+  [[nodiscard]] const float* known(std::size_t number) const {
+    return known_.data() + number * channels_;
+  }
+
   /// Ends the wave; its memory stays.
   void clear();
 
@@ -120,7 +127,7 @@ class Wave {
   std::size_t channels_, nearest_;
   std::vector<Slot> slots_;
   std::vector<State> states_;
-  std::vector<float> values_, nearest_values_;
+  std::vector<float> values_, nearest_values_, known_;
   std::vector<std::uint32_t> returned_;  // slots that wait again
   std::size_t next_ = 0;                 // first slot that was never handed out
   std::size_t samples_ = 0;
@@ -129,7 +136,10 @@ class Wave {
 
 // ------------------------------------------------------------------------------------ definitions
 
-inline void Wave::reserve(std::size_t most) {
+inline void Wave::reserve(std::size_t most, std::size_t known) {
+  if (known * channels_ > known_.capacity()) {
+    known_.reserve(std::max(known * channels_, 2 * known_.capacity()));
+  }
   slots_.reserve(most);
   states_.reserve(most);
   returned_.reserve(most);
@@ -193,7 +203,13 @@ inline void Wave::abandon(std::uint32_t slot) {
   count(slot);
 }
 
+inline void Wave::keep_known(const float* values) {
+  FREQSYNTH_ASSERT(known_.size() + channels_ <= known_.capacity());
+  known_.insert(known_.end(), values, values + channels_);
+}
+
 inline void Wave::clear() {
+  known_.clear();
   slots_.clear();
   states_.clear();
   returned_.clear();

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -52,7 +53,7 @@ class QuantizerMeasure {
 
   /// See BlockMeasure.
   template <Refiner R>
-  void absorbed(const BlockView<R>& view, std::uint32_t block, float) {
+  void absorbed(const BlockView<R>& view, std::uint32_t block, std::span<const float>) {
     book_.absorbed(view, block);
   }
 

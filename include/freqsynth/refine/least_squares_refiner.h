@@ -64,6 +64,10 @@ class FREQSYNTH_API LeastSquaresRefiner {
   ///         the channels. The first usable value of a channel, with nothing to change, counts 0.
   float absorb(float* state, std::size_t index, const float* values) const;
 
+  /// The same for as many samples from `index` on as there are `changes`, which receive what
+  /// absorb() returns. The values of a sample follow those of the one before.
+  void absorb(float* state, std::size_t index, const float* values, std::span<float> changes) const;
+
   /// Asks for the memory that absorb() of sample `index` will write.
   void prefetch(const float* state, std::size_t index) const;
 
@@ -146,6 +150,14 @@ inline float LeastSquaresRefiner::absorb(float* state, std::size_t index,
   return detail::absorb_sample(list_->row(index), state, state + channels_ * max_terms,
                                state + 3 * channels_ * max_terms, values, weights_.data(),
                                channels_);
+}
+
+inline void LeastSquaresRefiner::absorb(float* state, std::size_t index, const float* values,
+                                        std::span<float> changes) const {
+  for (float& change : changes) {
+    change = absorb(state, index++, values);
+    values += channels_;
+  }
 }
 
 inline void LeastSquaresRefiner::prefetch(const float* state, std::size_t index) const {

@@ -99,4 +99,13 @@ concept FillsGaps = Refiner<R> && requires(const R& refiner, const float* known,
   { refiner.fit(known, n, channel, gaps) } -> std::same_as<BlockFit>;
 };
 
+/// A refiner that takes in several samples at once, faster than one after the other.
+template <class R>
+concept RefinesRuns = Refiner<R> && requires(const R& refiner, float* state, std::size_t n,
+                                             const float* values, std::span<float> changes) {
+  /// What absorb() of the samples n, n + 1, .. does, as many as there are changes. The values of a
+  /// sample follow those of the one before.
+  { refiner.absorb(state, n, values, changes) } -> std::same_as<void>;
+};
+
 }  // namespace freqsynth
