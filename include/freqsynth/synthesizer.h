@@ -56,6 +56,10 @@ struct SynthesisSettings {
   /// Most samples of a block, 1 .. SampleSequence::max_size. The default, a complete lattice of 257
   /// x 257, is about 1000 samples per pixel; the shared list takes 80 MB when a block gets there.
   std::size_t max_samples_per_block = std::size_t{257} * 257;
+  /// So many samples go to every block before errors decide which is next, 0 ..
+  /// max_samples_per_block; to one that is narrower than 8 x 8 pixels, or whose importance is below
+  /// 1, in proportion. Equal to max_samples_per_block: uniform sampling.
+  std::size_t least_samples_per_block = 0;
   /// What each channel is for; empty: all steer, with equal weights. Those of ChannelRole::nearest
   /// come after the others, of which there is at least one.
   std::vector<ChannelSettings> channel_settings = {};
@@ -64,8 +68,9 @@ struct SynthesisSettings {
   std::vector<float> importance = {};
   /// The part of the width x height pixels that is made, in whole blocks; empty: all of it.
   /// Requests are those of the whole picture. For its borders' sake two blocks more on each side
-  /// are sampled, and not shown. `importance` is that of the whole picture; stop rules and `wave`
-  /// are of what is sampled.
+  /// are sampled, and not shown: where all blocks have their max_samples_per_block, the pixels are
+  /// those of the whole picture to the bit. `importance` is that of the whole picture; stop rules
+  /// and `wave` are of what is sampled.
   PixelWindow window = {};
   /// When set, blocks are chosen by what their errors may change after quantisation, and the
   /// synthesis ends by itself when no block is above the target's tolerance.

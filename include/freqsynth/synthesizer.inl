@@ -105,6 +105,10 @@ inline SynthesisSettings validated(SynthesisSettings settings, std::size_t block
     refuse("max_samples_per_block is " + std::to_string(settings.max_samples_per_block) +
            ", not in 1.." + std::to_string(SampleSequence::max_size));
   }
+  if (settings.least_samples_per_block > settings.max_samples_per_block) {
+    refuse("least_samples_per_block is " + std::to_string(settings.least_samples_per_block) +
+           ", not in 0.." + std::to_string(settings.max_samples_per_block));
+  }
   check_importance(settings.importance, blocks);
   check_channels(settings);
   if (settings.quantization) {
@@ -219,9 +223,10 @@ struct Synthesizer::Implementation {
     BlockStore<R> blocks(
         R(settings.shared_list, settings.channels - nearest, detail::channel_weights(settings)),
         grid.size(), settings.max_samples_per_block);
-    engines.emplace<Engine<R, M>>(
-        grid, std::move(blocks), std::move(measure), detail::factors_of(grid, settings.importance),
-        settings.wave, settings.priority.exploration, settings.seed, settings.noise, nearest);
+    engines.emplace<Engine<R, M>>(grid, std::move(blocks), std::move(measure),
+                                  detail::factors_of(grid, settings.importance), settings.wave,
+                                  settings.priority.exploration, settings.seed, settings.noise,
+                                  nearest, settings.least_samples_per_block);
   }
 
   template <class Variant, class Use>

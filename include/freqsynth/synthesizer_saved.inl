@@ -59,6 +59,7 @@ void same_settings(Archive& archive, const SynthesisSettings& settings) {
   same_priority(archive, settings.priority);
   same_setting(archive, "wave", std::uint64_t{settings.wave});
   same_setting(archive, "max_samples_per_block", std::uint64_t{settings.max_samples_per_block});
+  same_setting(archive, "least_samples_per_block", std::uint64_t{settings.least_samples_per_block});
   std::vector<ChannelSettings> channels = settings.channel_settings;
   if (channels.empty()) channels.resize(settings.channels);
   for (std::size_t c = 0; c < channels.size(); ++c) {

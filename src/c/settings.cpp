@@ -65,6 +65,7 @@ SynthesisSettings settings_of(const freqsynth_settings* from) {
   priority.exposure = c.priority_exposure;
   settings.wave = c.wave;
   settings.max_samples_per_block = c.max_samples_per_block;
+  settings.least_samples_per_block = c.least_samples_per_block;
   settings.window = {c.window_x, c.window_y, c.window_width, c.window_height};
   std::size_t nearest = 0;
   if (c.channel_settings != nullptr) {

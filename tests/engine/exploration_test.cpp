@@ -56,6 +56,36 @@ TEST(Exploration, OfZeroLeavesFlatBlocksAlone) {
             *std::min_element(with.begin(), with.end()));
 }
 
+TEST(Exploration, LeavesNoBlockBelowItsLeastSamplesOnceThereAreSoMany) {
+  for (const double exploration : {0.0, 0.82}) {
+    for (const std::size_t least : {5u, 25u, 60u}) {
+      SynthesisSettings settings = helpers::settings_of(128, 64);
+      settings.priority.exploration = exploration;
+      settings.least_samples_per_block = least;
+      Synthesizer engine(settings);
+      // As many requests as that would take if blocks shared none, and a little more.
+      engine.run(half, helpers::at_samples(128 * (least + 2)));
+      auto counts = helpers::counts_of(engine.image());
+      EXPECT_GE(*std::min_element(counts.begin(), counts.end()), least);
+      // Then errors decide.
+      engine.run(half, helpers::at_samples(128 * (least + 40)));
+      counts = helpers::counts_of(engine.image());
+      std::uint64_t left = 0, right = 0;
+      for (std::size_t b = 0; b < counts.size(); ++b) (b % 16 < 7 ? left : right) += counts[b];
+      EXPECT_LT(2 * left, right) << least;
+    }
+  }
+  SynthesisSettings settings = helpers::settings_of(128, 64);
+  settings.max_samples_per_block = 30;
+  settings.least_samples_per_block = 31;
+  try {
+    Synthesizer engine(settings);
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(), "freqsynth: least_samples_per_block is 31, not in 0..30");
+  }
+}
+
 TEST(Exploration, VisitsThoseThatLagUntilNoneIsTaken) {
   std::vector<double> samples{5, 1, 9, 2, 1};
   const auto lags = [&](std::uint32_t block, double least) { return samples[block] < least; };

@@ -129,6 +129,37 @@ TEST(Window, HoldsAsGoodAPictureAsTheWhole) {
   EXPECT_GT(of_whole, 0);
 }
 
+/// Pixels of a part of a picture whose pixels are `all`.
+std::vector<float> cut(const std::vector<float>& all, std::size_t width, const PixelWindow& part) {
+  std::vector<float> pixels;
+  for (std::size_t y = part.y; y < part.y + part.height; ++y) {
+    for (std::size_t x = part.x; x < part.x + part.width; ++x) pixels.push_back(all[y * width + x]);
+  }
+  return pixels;
+}
+
+TEST(Window, HasThePixelsOfTheWholePictureToTheBitUnderUniformSampling) {
+  for (const std::size_t samples : {25u, 81u, 100u}) {
+    SynthesisSettings settings = settings_of(100, 60);
+    settings.max_samples_per_block = samples;
+    settings.least_samples_per_block = samples;
+    Synthesizer whole(settings);
+    EXPECT_EQ(whole.run(picture, {}).reason, StopReason::exhausted);
+    const std::vector<float> fit = reconstruct(whole.image());
+    const std::vector<float> finished = reconstruct(whole.finished_image());
+    for (const PixelWindow& window : {PixelWindow{33, 20, 19, 7}, PixelWindow{80, 40, 20, 20},
+                                      PixelWindow{0, 0, 8, 60}, PixelWindow{40, 24, 8, 8}}) {
+      settings.window = window;
+      Synthesizer part(settings);
+      EXPECT_EQ(part.run(picture, {}).reason, StopReason::exhausted);
+      EXPECT_EQ(reconstruct(part.image()), cut(fit, 100, part.window()));
+      EXPECT_EQ(reconstruct(part.finished_image()), cut(finished, 100, part.window()));
+      EXPECT_LT(part.stats().samples, whole.stats().samples);
+    }
+    settings.window = {};
+  }
+}
+
 TEST(Window, HasTheNearestValuesOfItsPixels) {
   SynthesisSettings settings = settings_of(60, 44, 2);
   settings.channel_settings = {{}, {ChannelRole::nearest}};

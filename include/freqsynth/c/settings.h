@@ -79,6 +79,7 @@ typedef struct freqsynth_settings {
   double priority_exposure;                  /**< 1 */
   size_t wave;                               /**< blocks between two choices; 0: 1/32 of all */
   size_t max_samples_per_block;              /**< 66049 */
+  size_t least_samples_per_block;            /**< before errors decide; 0 */
   const freqsynth_channel* channel_settings; /**< `channels` of them; NULL: all steer */
   const float* importance;                   /**< factor per block, row by row; NULL: 1 */
   size_t importance_count;                   /**< how many there are */

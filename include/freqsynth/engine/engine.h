@@ -58,9 +58,10 @@ class Engine {
   /// \param seed         of Request::seed
   /// \param noise        whether `measure` is to be told of noise once it is seen
   /// \param nearest      channels that come after those of the blocks, see NearestSamples
+  /// \param first        samples that every block gets before errors decide
   Engine(const BlockGrid& grid, BlockStore<R> blocks, M measure, std::vector<float> factors,
          std::size_t wave, double exploration = 0, std::uint64_t seed = 0,
-         Noise noise = Noise::none, std::size_t nearest = 0);
+         Noise noise = Noise::none, std::size_t nearest = 0, std::size_t first = 0);
 
   /// Sets when request() stops, from the next wave on. \throws like StopRule::validate().
   void set_stop(const StopRule& stop);

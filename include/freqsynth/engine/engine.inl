@@ -15,7 +15,7 @@ namespace freqsynth {
 template <Refiner R, BlockMeasure<R> M>
 Engine<R, M>::Engine(const BlockGrid& grid, BlockStore<R> blocks, M measure,
                      std::vector<float> factors, std::size_t wave, double exploration,
-                     std::uint64_t seed, Noise noise, std::size_t nearest)
+                     std::uint64_t seed, Noise noise, std::size_t nearest, std::size_t first)
     : grid_(grid),
       blocks_(std::move(blocks)),
       cache_(grid, blocks_.refiner().channels()),
@@ -28,7 +28,7 @@ Engine<R, M>::Engine(const BlockGrid& grid, BlockStore<R> blocks, M measure,
       noise_(noise),
       plan_(grid.size()),
       frame_(detail::mix_bits(seed + detail::golden_step)),
-      exploration_(exploration, grid.size()) {
+      exploration_(exploration, grid.size(), first) {
   const std::size_t most = std::max<std::size_t>(grid.size(), 1);
   wave_size_ = wave != 0 ? std::min(wave, most) : std::max<std::size_t>(most / 32, 1);
   longest_visit_ = wave == 1 ? 1 : longest_visit(blocks_.most_samples());

@@ -14,13 +14,15 @@
 namespace freqsynth {
 
 /// The blocks that have fewer samples than every block should have by now: the first whole number
-/// above m^exponent, when the blocks have m on average.
+/// above m^exponent, when the blocks have m on average; above m itself up to a given number.
 class Exploration {
  public:
   /// \param exponent  see PrioritySettings::exploration
   /// \param blocks    how many there are
-  Exploration(double exponent, std::size_t blocks) : exponent_(exponent), blocks_(blocks) {
-    if (exponent_ > 0) lagging_.reserve(blocks);
+  /// \param first     so many samples go to every block before errors decide
+  Exploration(double exponent, std::size_t blocks, std::size_t first = 0)
+      : exponent_(exponent), first_(static_cast<double>(first)), blocks_(blocks) {
+    if (any()) lagging_.reserve(blocks);
   }
 
   /// Finds the blocks that lag when that number has grown, or when those that were found last have
@@ -36,14 +38,16 @@ class Exploration {
   void visit(Lags&& lags, Take&& take);
 
   /// Whether all blocks are to have the same number of samples.
-  [[nodiscard]] bool even() const { return exponent_ == 1; }
+  [[nodiscard]] bool even() const { return exponent_ == 1 || least_ < first_; }
   /// Samples that every block should have by now.
   [[nodiscard]] double least() const { return least_; }
 
  private:
   friend struct StateArchive;
 
-  double exponent_;
+  [[nodiscard]] bool any() const { return exponent_ > 0 || first_ > 0; }
+
+  double exponent_, first_;
   std::size_t blocks_;
   double least_ = 0;
   std::vector<std::uint32_t> lagging_;
@@ -54,8 +58,9 @@ class Exploration {
 
 template <class Lags>
 void Exploration::update(double mean, Lags&& lags) {
-  if (exponent_ == 0) return;
-  const double least = std::floor(std::pow(mean, exponent_)) + 1;
+  if (!any()) return;
+  double least = exponent_ > 0 ? std::floor(std::pow(mean, exponent_)) + 1 : 0;
+  least = std::fmax(least, std::fmin(std::floor(mean) + 1, first_));
   // Those that lag by more than one come again.
   const bool taken = next_ > 0 && next_ == lagging_.size();
   if (least <= least_ && !taken) return;

@@ -218,7 +218,7 @@ struct StateArchive {
   template <class Archive, class E>
   static void exploration(Archive& archive, E& exploration) {
     archive.number(exploration.least_);
-    archive.list(exploration.lagging_, exploration.exponent_ > 0 ? exploration.blocks_ : 0);
+    archive.list(exploration.lagging_, exploration.any() ? exploration.blocks_ : 0);
     archive.count(exploration.next_);
     archive.check(exploration.next_ <= exploration.lagging_.size());
     for (const std::uint32_t block : exploration.lagging_) {
