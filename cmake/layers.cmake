@@ -32,6 +32,7 @@ set(FREQSYNTH_LAYERS
   "engine/thread_pool.h|a pool of threads, compiled only|"
   "engine/stop_rule.h|when a synthesis ends, and what it says of itself|4.4"
   "engine/stop_meter.h|how far along the stop rules are|"
+  "engine/error_watch.h|when an engine looks at the error that is expected|"
   "engine/waiting_room.h|where threads wait for news|"
   "engine/noise.h|whether a sampler returns Monte Carlo estimates|"
   "engine/noise_probes.h|samples that are asked for twice, so that noise is noticed|"

@@ -16,6 +16,7 @@ const char* name_of(freqsynth::StopReason reason) {
     case freqsynth::StopReason::samples:
       return "samples";
     case freqsynth::StopReason::threshold:
+    case freqsynth::StopReason::target_rmse:
       return "target";
     case freqsynth::StopReason::cancelled:
       return "interrupted";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a number of samples buys, what an aliasing threshold, and an end after a time.
+// What a number of samples buys, what an aliasing threshold and what a target; an end after a time.
 #include <cmath>
 #include <cstdio>
 #include <vector>
@@ -37,6 +37,14 @@ static void show(const char* name, double (*picture)(double, double),
               samples / (side * side), error_of(engine.finished_image(), picture));
 }
 
+static void aim(const char* name, double (*picture)(double, double), double target) {
+  freqsynth::Synthesizer engine({.width = side, .height = side, .channels = 1});
+  engine.run(picture, {.samples_per_pixel = 64, .target_rmse = target});
+  std::printf("%-8s %10.4f %20.3f %10.5f\n", name, target,
+              static_cast<double>(engine.stats().samples) / (side * side),
+              error_of(engine.finished_image(), picture));
+}
+
 int main() {
   std::printf("picture    at most  threshold    samples per pixel      error\n");
   for (const double most : {0.25, 1.0, 4.0}) {
@@ -47,6 +55,12 @@ int main() {
     show("soft", soft, {.samples_per_pixel = 16, .aliasing_threshold = threshold});
     show("stripes", stripes, {.samples_per_pixel = 16, .aliasing_threshold = threshold});
   }
+  std::printf("\npicture      target    samples per pixel      error\n");
+  for (const double target : {0.03, 0.01}) {
+    aim("soft", soft, target);
+    aim("stripes", stripes, target);
+  }
+  std::printf("\n");
   // The first rule that holds ends it.
   freqsynth::Synthesizer engine({.width = side, .height = side, .channels = 1});
   const auto report = engine.run(stripes, {.samples_per_pixel = 800, .seconds = 0.05});

@@ -176,6 +176,10 @@ struct Synthesizer::Implementation {
     }
   }
 
+  /// See Synthesizer::predicted_rmse().
+  [[nodiscard]] double predicted_rmse(const BlockGrid& sampled, const BlockSnapshot<R>& blocks,
+                                      const FinishSettings& finish) const;
+
   /// Calls use(engine).
   template <class Use>
   auto with_engine(Use&& use) {
@@ -223,10 +227,16 @@ struct Synthesizer::Implementation {
     BlockStore<R> blocks(
         R(settings.shared_list, settings.channels - nearest, detail::channel_weights(settings)),
         grid.size(), settings.max_samples_per_block);
-    engines.emplace<Engine<R, M>>(grid, std::move(blocks), std::move(measure),
-                                  detail::factors_of(grid, settings.importance), settings.wave,
-                                  settings.priority.exploration, settings.seed, settings.noise,
-                                  nearest, settings.least_samples_per_block);
+    auto& engine = engines.emplace<Engine<R, M>>(
+        grid, std::move(blocks), std::move(measure), detail::factors_of(grid, settings.importance),
+        settings.wave, settings.priority.exploration, settings.seed, settings.noise, nearest,
+        settings.least_samples_per_block);
+    engine.use_predictor(
+        [](const void* self, const BlockGrid& sampled, const BlockSnapshot<R>& now, bool noisy) {
+          return static_cast<const Implementation*>(self)->predicted_rmse(
+              sampled, now, detail::settings_for({}, noisy));
+        },
+        this);
   }
 
   template <class Variant, class Use>

@@ -20,15 +20,11 @@ FREQSYNTH_INLINE std::vector<float> Synthesizer::error_image(const FinishSetting
   return implementation_->shown(all, channels() - detail::nearest_channels(this->settings()));
 }
 
-FREQSYNTH_INLINE double Synthesizer::predicted_rmse(const FinishSettings& settings) const {
-  settings.validate();
-  const std::vector<double> squares = implementation_->with_engine([&](const auto& engine) {
-    return engine.with_snapshot([&](const BlockGrid& grid, const auto& blocks, bool noisy) {
-      return expected_squared_errors(grid, blocks, detail::settings_for(settings, noisy),
-                                     implementation_->shown());
-    });
-  });
-  std::vector<float> weights = detail::channel_weights(implementation_->settings);
+inline double Synthesizer::Implementation::predicted_rmse(const BlockGrid& sampled,
+                                                          const BlockSnapshot<R>& blocks,
+                                                          const FinishSettings& finish) const {
+  const std::vector<double> squares = expected_squared_errors(sampled, blocks, finish, shown());
+  std::vector<float> weights = detail::channel_weights(settings);
   const bool none = std::none_of(weights.begin(), weights.end(), [](float one) { return one > 0; });
   if (none) weights.assign(weights.size(), 1 / static_cast<float>(weights.size()));
   double square = 0;
@@ -36,6 +32,15 @@ FREQSYNTH_INLINE double Synthesizer::predicted_rmse(const FinishSettings& settin
     if (weights[c] > 0) square += double{weights[c]} * squares[c];
   }
   return std::sqrt(square);
+}
+
+FREQSYNTH_INLINE double Synthesizer::predicted_rmse(const FinishSettings& settings) const {
+  settings.validate();
+  return implementation_->with_engine([&](const auto& engine) {
+    return engine.with_snapshot([&](const BlockGrid& grid, const auto& blocks, bool noisy) {
+      return implementation_->predicted_rmse(grid, blocks, detail::settings_for(settings, noisy));
+    });
+  });
 }
 
 }  // namespace freqsynth

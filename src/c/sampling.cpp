@@ -32,6 +32,7 @@ static_assert(FREQSYNTH_STOP_CANCELLED == 1 + static_cast<int>(StopReason::cance
 static_assert(FREQSYNTH_STOP_WAITING == 1 + static_cast<int>(StopReason::waiting));
 static_assert(FREQSYNTH_STOP_UNUSABLE == 1 + static_cast<int>(StopReason::unusable));
 static_assert(FREQSYNTH_STOP_SECONDS == 1 + static_cast<int>(StopReason::seconds));
+static_assert(FREQSYNTH_STOP_TARGET_RMSE == 1 + static_cast<int>(StopReason::target_rmse));
 static_assert(FREQSYNTH_WAIT_NO == static_cast<int>(Wait::no));
 static_assert(FREQSYNTH_WAIT_UNTIL_AVAILABLE == static_cast<int>(Wait::until_available));
 
@@ -43,6 +44,7 @@ freqsynth_progress progress_of(const Progress& now) {
   progress.seconds_left = now.seconds_left;
   progress.samples = now.samples;
   progress.revision = now.revision;
+  progress.predicted_rmse = now.predicted_rmse;
   return progress;
 }
 

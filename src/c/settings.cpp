@@ -93,6 +93,7 @@ StopRule stop_rule_of(const freqsynth_stop_rule* from) {
   rule.seconds = c.seconds;
   rule.aliasing_threshold = c.aliasing_threshold;
   rule.least_samples = c.least_samples;
+  rule.target_rmse = c.target_rmse;
   return rule;
 }
 
@@ -161,6 +162,7 @@ void freqsynth_stop_rule_init(freqsynth_stop_rule* rule, size_t size) {
   c.seconds = usual.seconds;
   c.aliasing_threshold = usual.aliasing_threshold;
   c.least_samples = usual.least_samples;
+  c.target_rmse = usual.target_rmse;
   freqsynth::detail::write_defaults(c, rule, size);
 }
 

@@ -426,6 +426,11 @@ TEST(CInterface, EveryStopRuleArrives) {
             std::pair(int{FREQSYNTH_STOP_SAMPLES}, std::uint64_t{1350}));
   EXPECT_EQ(reason_of([](auto& rule) { rule.seconds = 0; }),
             std::pair(int{FREQSYNTH_STOP_SECONDS}, std::uint64_t{0}));
+  const auto good = reason_of([](auto& rule) { rule.target_rmse = 0.02; });
+  const auto fair = reason_of([](auto& rule) { rule.target_rmse = 0.1; });
+  EXPECT_EQ(good.first, FREQSYNTH_STOP_TARGET_RMSE);
+  EXPECT_EQ(fair.first, FREQSYNTH_STOP_TARGET_RMSE);
+  EXPECT_LT(fair.second, good.second);
   const auto early = reason_of([](auto& rule) {
     rule.aliasing_threshold = 1e6;
     rule.least_samples = 1;

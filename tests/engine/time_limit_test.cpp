@@ -45,7 +45,6 @@ TEST(TimeLimit, EndsARunThatWouldTakeVeryLong) {
     EXPECT_EQ(engine.stopped(), StopReason::seconds);
     EXPECT_GE(seconds_since(begin), 0.03) << "counted anew in each run";
   }
-  EXPECT_GT(engine.stats().samples, 0u);
 }
 
 TEST(TimeLimit, OfNothingAsksForNothing) {
@@ -102,6 +101,7 @@ TEST(StopRules, ThatAreNoNumbersAreRefusedByName) {
     };
     refused({.samples_per_pixel = wrong}, "samples_per_pixel");
     refused({.seconds = wrong}, "seconds");
+    refused({.target_rmse = wrong}, "target_rmse");
     refused({.aliasing_threshold = wrong}, "aliasing_threshold");
   }
   EXPECT_EQ(engine.run(picture, at_samples(10)).reason, StopReason::samples);
@@ -122,7 +122,7 @@ TEST(StopRules, InAnyCombinationEndAndTellWhich) {
     if (one_in(3)) stop.samples_per_pixel = static_cast<double>(random.below(300)) / 100;
     if (one_in(3)) stop.aliasing_threshold = one_in(3) ? infinity : 0.003;
     if (one_in(3)) stop.least_samples = random.below(100);
-    if (one_in(3)) stop.seconds = one_in(2) ? 1e5 : 1e-4 * static_cast<double>(random.below(9));
+    if (one_in(3)) stop.seconds = one_in(2) ? 1e5 : 1e-4 * static_cast<double>(random.below(3));
     bool cancelled = false;
     const std::size_t patience = random.below(200);
     std::size_t calls = 0;

@@ -119,13 +119,14 @@ typedef struct freqsynth_executor {
 
 /** How far a synthesis is, see Progress. */
 typedef struct freqsynth_progress {
-  size_t struct_size;  /**< sizeof(freqsynth_progress), set by the caller, or by the library for a
-                        * callback */
-  double fraction;     /**< share of the way to the end, 0..1, never falling */
-  double seconds;      /**< since the rules were set */
-  double seconds_left; /**< until the end; infinity while unknown */
-  uint64_t samples;    /**< as of freqsynth_stats */
-  uint64_t revision;   /**< of the picture: another one when this is */
+  size_t struct_size;    /**< sizeof(freqsynth_progress), set by the caller, or by the library for a
+                          * callback */
+  double fraction;       /**< share of the way to the end, 0..1, never falling */
+  double seconds;        /**< since the rules were set */
+  double seconds_left;   /**< until the end; infinity while unknown */
+  uint64_t samples;      /**< as of freqsynth_stats */
+  uint64_t revision;     /**< of the picture: another one when this is */
+  double predicted_rmse; /**< when target_rmse was looked at last; infinity before */
 } freqsynth_progress;
 
 /** How far it is by the rules that are set. */

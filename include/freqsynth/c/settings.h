@@ -106,6 +106,7 @@ typedef struct freqsynth_stop_rule {
   double seconds;            /**< of wall-clock time from when the rule is set; infinity */
   double aliasing_threshold; /**< 0 */
   size_t least_samples;      /**< per block, before the threshold counts; 25 */
+  double target_rmse;        /**< the error that finished pixels are expected to have; 0: any */
 } freqsynth_stop_rule;
 
 /** The defaults: no limit. \param size  sizeof(freqsynth_stop_rule) */
@@ -113,14 +114,15 @@ FREQSYNTH_C_API void freqsynth_stop_rule_init(freqsynth_stop_rule* rule, size_t 
 
 /** Why no more positions are handed out, see StopReason. */
 enum {
-  FREQSYNTH_STOP_NONE = 0,      /**< they are */
-  FREQSYNTH_STOP_SAMPLES = 1,   /**< the number of samples is reached */
-  FREQSYNTH_STOP_THRESHOLD = 2, /**< every block is below the threshold, or meets the quantiser */
-  FREQSYNTH_STOP_EXHAUSTED = 3, /**< every block has its most samples, or there is no block */
-  FREQSYNTH_STOP_CANCELLED = 4, /**< the progress callback said so, or freqsynth_cancel() */
-  FREQSYNTH_STOP_WAITING = 5,   /**< positions handed out elsewhere are still owed */
-  FREQSYNTH_STOP_UNUSABLE = 6,  /**< not one sample had a usable value */
-  FREQSYNTH_STOP_SECONDS = 7    /**< the time is over */
+  FREQSYNTH_STOP_NONE = 0,       /**< they are */
+  FREQSYNTH_STOP_SAMPLES = 1,    /**< the number of samples is reached */
+  FREQSYNTH_STOP_THRESHOLD = 2,  /**< every block is below the threshold, or meets the quantiser */
+  FREQSYNTH_STOP_EXHAUSTED = 3,  /**< every block has its most samples, or there is no block */
+  FREQSYNTH_STOP_CANCELLED = 4,  /**< the progress callback said so, or freqsynth_cancel() */
+  FREQSYNTH_STOP_WAITING = 5,    /**< positions handed out elsewhere are still owed */
+  FREQSYNTH_STOP_UNUSABLE = 6,   /**< not one sample had a usable value */
+  FREQSYNTH_STOP_SECONDS = 7,    /**< the time is over */
+  FREQSYNTH_STOP_TARGET_RMSE = 8 /**< the expected error is small enough */
 };
 
 /** A list that engines share by freqsynth_settings::shared_list. Engines keep what they need of it:

@@ -31,6 +31,7 @@
 #include "freqsynth/engine/block_store.h"
 #include "freqsynth/engine/channel_units.h"
 #include "freqsynth/engine/edge_cache.h"
+#include "freqsynth/engine/error_watch.h"
 #include "freqsynth/engine/exploration.h"
 #include "freqsynth/engine/nearest_samples.h"
 #include "freqsynth/engine/noise.h"
@@ -62,6 +63,16 @@ class Engine {
   Engine(const BlockGrid& grid, BlockStore<R> blocks, M measure, std::vector<float> factors,
          std::size_t wave, double exploration = 0, std::uint64_t seed = 0,
          Noise noise = Noise::none, std::size_t nearest = 0, std::size_t first = 0);
+
+  /// Tells the error to expect of finished pixels, from the blocks and whether they are noisy.
+  using Predictor = double (*)(const void* context, const BlockGrid& grid,
+                               const BlockSnapshot<R>& blocks, bool noisy);
+  /// Sets what StopRule::target_rmse is compared with. Without it that rule never holds.
+  /// \param context  handed on to `predict`; must live as long as the engine
+  void use_predictor(Predictor predict, const void* context) {
+    predict_ = predict;
+    context_ = context;
+  }
 
   /// Sets when request() stops, from the next wave on. \throws like StopRule::validate().
   void set_stop(const StopRule& stop);
@@ -145,6 +156,7 @@ class Engine {
   void use_factors();
   std::optional<StopReason> end();
   [[nodiscard]] StopMeter::Shares shares() const;
+  [[nodiscard]] bool meets_target();
   void end_of_delivery();
   template <class Archive, class Self>
   static void list_parts(Archive& archive, Self& self);
@@ -206,6 +218,9 @@ class Engine {
   std::optional<std::vector<float>> factors_;  // that are to be used from the next wave on
   StopRule stop_;
   StopMeter meter_;
+  ErrorWatch errors_;
+  Predictor predict_ = nullptr;
+  const void* context_ = nullptr;
   std::optional<StopReason> ended_;  // why there is no wave
   std::atomic<bool> cancelled_{false};
   WaitingRoom room_;

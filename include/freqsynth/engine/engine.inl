@@ -28,7 +28,8 @@ Engine<R, M>::Engine(const BlockGrid& grid, BlockStore<R> blocks, M measure,
       noise_(noise),
       plan_(grid.size()),
       frame_(detail::mix_bits(seed + detail::golden_step)),
-      exploration_(exploration, grid.size(), first) {
+      exploration_(exploration, grid.size(), first),
+      errors_(grid.size()) {
   const std::size_t most = std::max<std::size_t>(grid.size(), 1);
   wave_size_ = wave != 0 ? std::min(wave, most) : std::max<std::size_t>(most / 32, 1);
   longest_visit_ = wave == 1 ? 1 : longest_visit(blocks_.most_samples());

@@ -17,6 +17,7 @@ template <Refiner R, BlockMeasure<R> M>
 std::optional<StopReason> Engine<R, M>::prepare_wave() {
   use_factors();
   const std::optional<StopReason> reason = choose_wave();
+  if (!reason) errors_.pass(stats_.absorbed);
   plan_visits();
   probes_.visit(stats_.samples, wave_.samples(),
                 [&](std::size_t slot) { wave_.repeat(static_cast<std::uint32_t>(slot)); });
@@ -30,6 +31,7 @@ std::optional<StopReason> Engine<R, M>::choose_wave() {
   if (!any_usable_ && blocks_.untouched() == 0 && stats_.samples >= patience_) {
     return reason(StopReason::exhausted);
   }
+  if (meets_target()) return reason(StopReason::target_rmse);
   const Portion most = portion();
   reserve(most);
   // In the unit of the priorities. Of a signal that is all 0 so far, everything is below it.

@@ -52,7 +52,20 @@ StopMeter::Shares Engine<R, M>::shares() const {
   const double most =
       static_cast<double>(blocks_.size()) * static_cast<double>(blocks_.most_samples());
   if (most > 0) shares.blocks = static_cast<double>(stats_.absorbed) / most;
+  // Between what errors of noise and those of smooth pictures do when samples double.
+  if (stop_.target_rmse > 0) shares.error = std::pow(stop_.target_rmse / errors_.least(), 1.5);
   return shares;
+}
+
+/// Whether the expected error is as small as a rule wants it.
+template <Refiner R, BlockMeasure<R> M>
+bool Engine<R, M>::meets_target() {
+  if (stop_.target_rmse == 0 || predict_ == nullptr || !errors_.due(stats_.absorbed)) return false;
+  if (blocks_.untouched() > 0) return false;
+  const double error = errors_.look(stats_.absorbed, [&] {
+    return predict_(context_, grid_, BlockSnapshot<R>(blocks_), noise_ == Noise::present);
+  });
+  return error <= stop_.target_rmse;
 }
 
 template <Refiner R, BlockMeasure<R> M>
@@ -64,6 +77,7 @@ Progress Engine<R, M>::progress() const {
   Progress progress = meter_.progress(now, done || ended_);
   progress.samples = stats_.samples + wave_.delivered_samples();
   progress.revision = stats_.waves;
+  progress.predicted_rmse = errors_.last();
   return progress;
 }
 

@@ -19,6 +19,7 @@ void Engine<R, M>::list_parts(Archive& archive, Self& self) {
     archive.number(self.patience_);
     StateArchive::stats(archive, self.stats_);
     StateArchive::stop(archive, self.stop_);
+    StateArchive::errors(archive, self.errors_);
     StateArchive::bad_samples(archive, self.bad_, most_bad_reported);
   });
   archive.section("UNIT", [&] { StateArchive::units(archive, self.units_); });

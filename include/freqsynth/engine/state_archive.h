@@ -52,9 +52,22 @@ struct StateArchive {
     archive.number(rule.samples_per_pixel);
     archive.number(rule.samples);
     archive.number(rule.seconds);
+    archive.number(rule.target_rmse);
     archive.number(rule.aliasing_threshold);
     archive.count(rule.least_samples);
-    for (const double one : {rule.samples_per_pixel, rule.seconds, rule.aliasing_threshold}) {
+    for (const double one :
+         {rule.samples_per_pixel, rule.seconds, rule.target_rmse, rule.aliasing_threshold}) {
+      archive.check(!detail::is_nan(one) && one >= 0);
+    }
+  }
+
+  template <class Archive, class Watch>
+  static void errors(Archive& archive, Watch& watch) {
+    archive.number(watch.next_);
+    archive.number(watch.place_);
+    archive.number(watch.last_);
+    archive.number(watch.least_);
+    for (const double one : {watch.last_, watch.least_}) {
       archive.check(!detail::is_nan(one) && one >= 0);
     }
   }

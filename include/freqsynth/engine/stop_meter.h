@@ -24,6 +24,7 @@ class StopMeter {
   struct Shares {
     double samples = 0;  ///< of the samples of the image
     double blocks = 0;   ///< of the samples that blocks may have
+    double error = 0;    ///< of the samples that a target of the error takes, roughly
   };
 
   /// Starts. \param seconds  see StopRule::seconds
@@ -70,12 +71,13 @@ inline Progress StopMeter::progress(const Shares& now, bool ended) const {
     progress.seconds_left = 0;
     return progress;
   }
-  const double shares = std::max(now.samples, now.blocks);
+  const double shares = std::max({now.samples, now.blocks, now.error});
   const double of_time = limited_ ? progress.seconds / seconds_ : 0;
   constexpr double below_one = 1 - std::numeric_limits<double>::epsilon() / 2;
   progress.fraction = std::min(std::max(shares, of_time), below_one);
-  progress.seconds_left = std::min(seconds_left(progress.seconds, first_.samples, now.samples),
-                                   seconds_left(progress.seconds, first_.blocks, now.blocks));
+  progress.seconds_left = std::min({seconds_left(progress.seconds, first_.samples, now.samples),
+                                    seconds_left(progress.seconds, first_.blocks, now.blocks),
+                                    seconds_left(progress.seconds, first_.error, now.error)});
   if (limited_) {
     progress.seconds_left = std::min(progress.seconds_left, seconds_ - progress.seconds);
   }

@@ -27,6 +27,11 @@ struct StopRule {
   /// so that run() comes back after the batch that is under way. What came in of that wave is kept
   /// for a later run; images show completed waves. More than 1e9 are no limit.
   double seconds = std::numeric_limits<double>::infinity();
+  /// Synthesizer::predicted_rmse(), the error that finished pixels are expected to have, in the
+  /// signal's unit, >= 0; 0: no target. It is looked at between waves, four times while samples
+  /// double, from 5 samples in each block on: so up to a quarter more samples are taken than it
+  /// needs. What no sample has hit nobody knows: an expectation, not a bound.
+  double target_rmse = 0;
   /// The aliasing threshold of section 4.4 in the signal's unit, >= 0: no block changes by more
   /// with its next sample, as root mean square over its pixels and by the estimate of
   /// PrioritySettings::measure. Not an error bound. Where PrioritySettings::steer is not linear,
@@ -46,13 +51,14 @@ struct StopRule {
 
 /// Why no more positions are handed out.
 enum class StopReason {
-  samples,    ///< the number of samples is reached
-  threshold,  ///< every block is below the aliasing threshold, or meets the quantization target
-  exhausted,  ///< every block has its most samples, or there is no block
-  cancelled,  ///< the progress callback said so, or cancel() was called
-  waiting,    ///< positions handed out by request() elsewhere are still owed
-  unusable,   ///< not one sample had a usable value: there is no image
-  seconds     ///< the time is over
+  samples,     ///< the number of samples is reached
+  threshold,   ///< every block is below the aliasing threshold, or meets the quantization target
+  exhausted,   ///< every block has its most samples, or there is no block
+  cancelled,   ///< the progress callback said so, or cancel() was called
+  waiting,     ///< positions handed out by request() elsewhere are still owed
+  unusable,    ///< not one sample had a usable value: there is no image
+  seconds,     ///< the time is over
+  target_rmse  ///< the expected error is small enough
 };
 
 /// Counters since the engine's creation.
@@ -88,9 +94,10 @@ struct BadSample {
 
 /// How far a synthesis is.
 struct Progress {
-  /// Share of the way to the end, 0..1, by the rule that is furthest along: samples, seconds, or
-  /// the most samples that blocks may have. The aliasing threshold and a quantization target may
-  /// end it earlier. It is 1 at the end and not before, and never falls until rules are set anew.
+  /// Share of the way to the end, 0..1, by the rule that is furthest along: samples, seconds, the
+  /// target of the error (roughly), or the most samples that blocks may have. The aliasing
+  /// threshold and a quantization target may end it earlier. It is 1 at the end and not before, and
+  /// never falls until rules are set anew.
   double fraction = 0;
   double seconds = 0;  ///< since the rules were set
   /// Until the end, at the pace since the rules were set: 0 at the end, infinity while unknown. The
@@ -99,6 +106,8 @@ struct Progress {
   std::uint64_t samples = 0;  ///< see SynthesisStats::samples
   /// Of the picture: the number of completed waves. image() is another one when this is.
   std::uint64_t revision = 0;
+  /// Synthesizer::predicted_rmse() when StopRule::target_rmse was looked at last; infinity before.
+  double predicted_rmse = std::numeric_limits<double>::infinity();
 };
 
 /// What run() did.

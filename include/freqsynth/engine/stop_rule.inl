@@ -15,6 +15,7 @@ FREQSYNTH_INLINE void StopRule::validate() const {
   };
   check(samples_per_pixel, "samples_per_pixel");
   check(seconds, "seconds");
+  check(target_rmse, "target_rmse");
   check(aliasing_threshold, "aliasing_threshold");
 }
 
