@@ -31,12 +31,19 @@ void Engine<R, M>::list_parts(Archive& archive, Self& self) {
     std::uint64_t absorbed = 0;
     for (const std::uint32_t count : self.blocks_.counts()) absorbed += count;
     archive.check(absorbed == self.stats_.absorbed);
+  });
+  archive.section("STAT", [&] {
+    StateArchive::states(archive, self.blocks_);
+    // The list grows as far as blocks have got; so not before the counts are known to be right.
     if constexpr (Archive::loading) StateArchive::check_next(archive, self.grid_, self.blocks_);
   });
-  archive.section("STAT", [&] { StateArchive::states(archive, self.blocks_); });
   archive.section("SURP", [&] { StateArchive::surprises(archive, self.blocks_); });
-  archive.section("EDGE",
-                  [&] { StateArchive::edges(archive, self.cache_, self.grid_, self.blocks_); });
+  archive.section("EDGE", [&] {
+    StateArchive::edges(archive, self.cache_, self.grid_, self.blocks_);
+    if constexpr (Archive::loading) {
+      StateArchive::check_corners(archive, self.cache_, self.grid_, self.blocks_);
+    }
+  });
   archive.section("SIGN", [&] { StateArchive::signal(archive, self.signal_); });
   archive.section("CHOI", [&] {
     StateArchive::choice(archive, self.choice_);

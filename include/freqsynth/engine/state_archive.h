@@ -139,6 +139,10 @@ struct StateArchive {
   /// No block's next sample may be one that is known.
   template <class Archive, class Store>
   static void check_next(Archive& archive, const BlockGrid& grid, const Store& blocks);
+  /// The corners that a block will take and another one has are known.
+  template <class Archive, class Cache, class Store>
+  static void check_corners(Archive& archive, const Cache& cache, const BlockGrid& grid,
+                            const Store& blocks);
 
   template <class Archive, class Signal>
   static void signal(Archive& archive, Signal& signal) {
@@ -231,6 +235,8 @@ struct StateArchive {
   template <class Archive, class E>
   static void exploration(Archive& archive, E& exploration) {
     archive.number(exploration.least_);
+    // A number of samples.
+    archive.check(exploration.least_ >= 0 && exploration.least_ < 1e19);
     archive.list(exploration.lagging_, exploration.any() ? exploration.blocks_ : 0);
     archive.count(exploration.next_);
     archive.check(exploration.next_ <= exploration.lagging_.size());

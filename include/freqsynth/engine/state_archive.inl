@@ -123,6 +123,22 @@ void StateArchive::edges(Archive& archive, Cache& cache, const BlockGrid& grid,
   }
 }
 
+template <class Archive, class Cache, class Store>
+void StateArchive::check_corners(Archive& archive, const Cache& cache, const BlockGrid& grid,
+                                 const Store& blocks) {
+  constexpr std::size_t corners = 4;  // the first positions
+  const auto& list = blocks.refiner().list();
+  for (std::uint32_t b = 0; b < grid.size(); ++b) {
+    for (std::size_t i = blocks.samples(b); i < std::min(corners, blocks.most_samples()); ++i) {
+      const SequencePosition& position = list.position(i);
+      const std::size_t corner = cache.corner_at(grid.column(b), grid.row(b), position);
+      grid.visit_sharing(b, position, [&](std::uint32_t other, std::uint32_t index) {
+        archive.check(index >= blocks.samples(other) || cache.corner_known_[corner] != 0);
+      });
+    }
+  }
+}
+
 template <class Archive, class Store>
 void StateArchive::check_next(Archive& archive, const BlockGrid& grid, const Store& blocks) {
   const auto& list = blocks.refiner().list();
