@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <vector>
 
 #include "c/bridge.h"
@@ -11,6 +12,40 @@ PixelView view_of(const freqsynth_pixels* pixels) {
   const freqsynth_pixels& c = object(pixels, "pixels");
   return {c.data,         c.width,      c.height,
           c.pixel_stride, c.row_stride, c.channel_stride == 0 ? 1 : c.channel_stride};
+}
+
+/// Memory for exactly the pixels that an engine shows.
+PixelView whole_view(const Synthesizer& engine, const freqsynth_pixels* pixels,
+                     std::size_t channels) {
+  const PixelView view = view_of(pixels).resolved(channels);
+  const PixelWindow window = engine.window();
+  if (view.width != window.width || view.height != window.height) {
+    refuse("pixels has " + std::to_string(view.width) + " x " + std::to_string(view.height) +
+           " pixels, not " + std::to_string(window.width) + " x " + std::to_string(window.height));
+  }
+  return view;
+}
+
+/// Row by row, the channels of a pixel side by side.
+void copy_pixels(const std::vector<float>& values, const PixelView& view, std::size_t channels) {
+  const float* from = values.data();
+  for (std::size_t y = 0; y < view.height; ++y) {
+    float* to = view.data + static_cast<std::ptrdiff_t>(y) * view.row_stride;
+    for (std::size_t x = 0; x < view.width; ++x, to += view.pixel_stride) {
+      for (std::size_t c = 0; c < channels; ++c) {
+        to[static_cast<std::ptrdiff_t>(c) * view.channel_stride] = *from++;
+      }
+    }
+  }
+}
+
+/// Channels of a picture: those that are not of role nearest.
+std::size_t image_channels(const SynthesisSettings& settings) {
+  const auto& all = settings.channel_settings;
+  const auto nearest = std::count_if(all.begin(), all.end(), [](const ChannelSettings& channel) {
+    return channel.role == ChannelRole::nearest;
+  });
+  return settings.channels - static_cast<std::size_t>(nearest);
 }
 
 }  // namespace
@@ -30,24 +65,32 @@ freqsynth_status freqsynth_finish(const freqsynth_synthesizer* synthesizer,
   });
 }
 
+freqsynth_status freqsynth_error_image(const freqsynth_synthesizer* synthesizer,
+                                       const freqsynth_finish_settings* finish,
+                                       const freqsynth_pixels* pixels) {
+  return guarded([&] {
+    const auto& engine = object(synthesizer, "synthesizer").engine;
+    const std::size_t channels = image_channels(engine.settings());
+    const freqsynth::PixelView view = whole_view(engine, pixels, channels);
+    copy_pixels(engine.error_image(finish_settings_of(finish)), view, channels);
+  });
+}
+
+freqsynth_status freqsynth_predicted_rmse(const freqsynth_synthesizer* synthesizer,
+                                          const freqsynth_finish_settings* finish, double* rmse) {
+  return guarded([&] {
+    const auto& engine = object(synthesizer, "synthesizer").engine;
+    double& out = object(rmse, "rmse");
+    out = engine.predicted_rmse(finish_settings_of(finish));
+  });
+}
+
 freqsynth_status freqsynth_nearest_pixels(const freqsynth_synthesizer* synthesizer, size_t channel,
                                           const freqsynth_pixels* pixels) {
   return guarded([&] {
     const auto& engine = object(synthesizer, "synthesizer").engine;
-    const freqsynth::PixelView view = view_of(pixels).resolved(1);
-    const freqsynth::PixelWindow window = engine.window();
-    if (view.width != window.width || view.height != window.height) {
-      refuse("pixels has " + std::to_string(view.width) + " x " + std::to_string(view.height) +
-             " pixels, not " + std::to_string(window.width) + " x " +
-             std::to_string(window.height));
-    }
-    const std::vector<float> values = engine.nearest_pixels(channel);
-    for (std::size_t y = 0; y < view.height; ++y) {
-      float* to = view.data + static_cast<std::ptrdiff_t>(y) * view.row_stride;
-      for (std::size_t x = 0; x < view.width; ++x, to += view.pixel_stride) {
-        *to = values[y * view.width + x];
-      }
-    }
+    const freqsynth::PixelView view = whole_view(engine, pixels, 1);
+    copy_pixels(engine.nearest_pixels(channel), view, 1);
   });
 }
 

@@ -186,6 +186,24 @@ TEST(CInterface, RolesAndNearestPixelsAreThoseOfCxx) {
   expected.run(sample, {.samples = 9000});
   EXPECT_EQ(picture(engine.handle, 3), reconstruct(expected.finished_image()));
 
+  std::vector<float> errors(width * height * 3);
+  const freqsynth_pixels planes = {errors.data(), width, height, 0, 0, width * height};
+  freqsynth_finish_settings finish;
+  freqsynth_finish_settings_init(&finish, sizeof finish);
+  finish.doubt = 1;
+  ASSERT_EQ(freqsynth_error_image(engine.handle, &finish, &planes), FREQSYNTH_OK);
+  FinishSettings same_finish;
+  same_finish.doubt = 1;
+  const std::vector<float> expected_errors = expected.error_image(same_finish);
+  ASSERT_EQ(errors.size(), expected_errors.size());
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    EXPECT_EQ(errors[i % 3 * width * height + i / 3], expected_errors[i]);
+  }
+  double rmse = 0;
+  ASSERT_EQ(freqsynth_predicted_rmse(engine.handle, &finish, &rmse), FREQSYNTH_OK);
+  EXPECT_EQ(rmse, expected.predicted_rmse(same_finish));
+  EXPECT_GT(rmse, 0);
+
   // Every other float, from the bottom up.
   std::vector<float> memory(2 * width * height, -1);
   freqsynth_pixels view = {memory.data() + 2 * width * (height - 1), width, height, 2, 0, 0};

@@ -79,6 +79,8 @@ static int null_is_refused(freqsynth_synthesizer* engine) {
   REFUSED(freqsynth_finish(engine, NULL, NULL, NULL), "pixels is NULL");
   REFUSED(freqsynth_finish(engine, NULL, NULL, &view), "no memory for 8 x 8 pixels");
   REFUSED(freqsynth_nearest_pixels(engine, 0, NULL), "pixels is NULL");
+  REFUSED(freqsynth_error_image(engine, NULL, NULL), "pixels is NULL");
+  REFUSED(freqsynth_predicted_rmse(engine, NULL, NULL), "rmse is NULL");
   REFUSED(freqsynth_fitted_image(engine, NULL), "image is NULL");
   REFUSED(freqsynth_finished_image(NULL, NULL, &image), "synthesizer is NULL");
   REFUSED(freqsynth_image_get_info(NULL, NULL), "image is NULL");
@@ -209,6 +211,7 @@ static int values_are_refused(freqsynth_synthesizer* engine) {
   REFUSED(freqsynth_deliver(engine, requests, 2, values, 0), "is not owed");
   OK(freqsynth_give_back(engine, requests + 1, 1));
   REFUSED(freqsynth_nearest_pixels(engine, 0, &view), "pixels has 8 x 8 pixels, not 32 x 24");
+  REFUSED(freqsynth_error_image(engine, NULL, &view), "pixels has 8 x 8 pixels, not 32 x 24");
   view.width = 4;
   view.pixel_stride = view.row_stride = 3;
   REFUSED(freqsynth_finish(engine, NULL, NULL, &view), "values would share memory");

@@ -82,6 +82,18 @@ FREQSYNTH_C_API freqsynth_status freqsynth_finish(
     const freqsynth_synthesizer* synthesizer, const freqsynth_finish_settings* finish,
     const freqsynth_reconstruction_settings* reconstruction, const freqsynth_pixels* pixels);
 
+/** How far pixels of the finished picture are expected to be off, see Synthesizer::error_image().
+ * \param finish  as the picture is finished
+ * \param pixels  of the size of the picture (of its window) */
+FREQSYNTH_C_API freqsynth_status freqsynth_error_image(const freqsynth_synthesizer* synthesizer,
+                                                       const freqsynth_finish_settings* finish,
+                                                       const freqsynth_pixels* pixels);
+
+/** The same for the whole picture, see Synthesizer::predicted_rmse(). \param[out] rmse  it */
+FREQSYNTH_C_API freqsynth_status freqsynth_predicted_rmse(const freqsynth_synthesizer* synthesizer,
+                                                          const freqsynth_finish_settings* finish,
+                                                          double* rmse);
+
 /** The pixels of a channel of FREQSYNTH_ROLE_NEAREST.
  * \param pixels  of the size of the picture (of its window); one channel */
 FREQSYNTH_C_API freqsynth_status freqsynth_nearest_pixels(const freqsynth_synthesizer* synthesizer,
