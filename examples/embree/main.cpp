@@ -12,6 +12,7 @@
 #include "common/channel_file.h"
 #include "common/interrupt.h"
 #include "common/option_values.h"
+#include "common/output_file.h"
 #include "common/picture.h"
 #include "common/progress_bar.h"
 #include "options.h"
@@ -40,6 +41,7 @@ Renderer make_renderer(const Options& options) {
 int render(const Options& options) {
   const Job& job = options.job;
   check_picture(options.output, job.width, job.height, 3);
+  if (!options.checkpoint.empty()) check_writable(options.checkpoint);
   const Renderer renderer = make_renderer(options);
   note_interrupts();
   HostPool pool = make_pool(options.threads);
@@ -51,7 +53,9 @@ int render(const Options& options) {
   const auto begin = std::chrono::steady_clock::now();
   const Pixels pixels =
       options.sampler == "freqsynth"
-          ? render_adaptively(renderer, job, pool, watch)
+          ? render_adaptively(renderer, job, pool, watch,
+                              {"freqsynth_embree", options.checkpoint, options.checkpoint_every},
+                              options.resume)
           : render_plainly(renderer, job,
                            options.sampler == "sobol" ? path_tracer::Numbers::sobol
                                                       : path_tracer::Numbers::random,

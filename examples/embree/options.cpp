@@ -30,7 +30,7 @@ void read_place(std::string_view option, const std::string& text, std::optional<
 
 /// The values of options as they were given; empty: not given.
 struct Texts {
-  std::string size, spp, frame, threads, eye, target, field, sun_size, light_samples;
+  std::string size, spp, frame, threads, eye, target, field, sun_size, light_samples, every;
   bool help = false;
 };
 
@@ -52,6 +52,12 @@ void describe(OIIO::ArgParse& parser, Options& options, Texts& texts) {
   parser.arg("--threads %s:N", &texts.threads).help("Threads that trace (all)");
   parser.arg("-o %s:FILE", &options.output)
       .help("The picture: EXR has colours, normals, sun and depth of surfaces as well");
+  parser.separator("Long runs:");
+  parser.arg("--checkpoint %s:FILE", &options.checkpoint)
+      .help("Keeps the state of the run in a file: now and then, when interrupted, and at the end");
+  parser.arg("--checkpoint-every %s:SECONDS", &texts.every).help("How often (60)");
+  parser.arg("--resume %s:FILE", &options.resume)
+      .help("Goes on from such a file, with the same options; the result is the same to the bit");
 }
 
 void read_values(const Texts& texts, Options& options) {
@@ -63,6 +69,7 @@ void read_values(const Texts& texts, Options& options) {
   if (options.threads > 1024) refuse("--threads", texts.threads, "in 1..1024");
   read_count<std::uint32_t>("--light-samples", texts.light_samples, 1, options.light_samples);
   if (options.light_samples > 4096) refuse("--light-samples", texts.light_samples, "in 1..4096");
+  read_positive("--checkpoint-every", texts.every, options.checkpoint_every);
   read_place("--eye", texts.eye, options.eye);
   read_place("--target", texts.target, options.target);
   read_positive("--sun-size", texts.sun_size, options.sun_size);
@@ -98,6 +105,12 @@ std::optional<Options> parse_options(int argc, const char** argv) {
   const double rate = options.job.samples_per_pixel;
   if (sampler != "freqsynth" && (rate != std::floor(rate) || rate > 1e6)) {
     refuse("--spp", texts.spp, "a whole number up to 1000000, as a plain sampler needs");
+  }
+  if (sampler != "freqsynth" && !(options.checkpoint.empty() && options.resume.empty())) {
+    throw UsageError("--checkpoint, --resume: are for --sampler freqsynth");
+  }
+  if (!texts.every.empty() && options.checkpoint.empty()) {
+    throw UsageError("--checkpoint-every: needs --checkpoint");
   }
   if (options.output.empty()) throw UsageError("-o is missing");
   return options;

@@ -20,7 +20,10 @@ struct Options {
   std::optional<double> half_field;
   double sun_size = 2;  ///< degrees
   std::uint32_t light_samples = 1;
-  std::size_t threads = 0;  ///< 0: all
+  std::size_t threads = 0;       ///< 0: all
+  std::string checkpoint;        ///< empty: none
+  double checkpoint_every = 60;  ///< seconds
+  std::string resume;            ///< empty: from the beginning
 };
 
 /// Reads the command line. Empty when --help was asked for and printed.

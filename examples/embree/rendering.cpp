@@ -75,12 +75,17 @@ HostPool make_pool(std::size_t threads) {
 }
 
 Pixels render_adaptively(const Renderer& renderer, const Job& job, HostPool& pool,
-                         const Watch& watch) {
+                         const Watch& watch, Checkpoint checkpoint, const std::string& resume) {
   freqsynth::SynthesisSettings settings = settings_of(job.width, job.height);
   settings.seed = job.frame;
-  freqsynth::Synthesizer engine(settings);
+  freqsynth::Synthesizer engine = make_engine(resume, settings);
+  const auto progress = [&](const freqsynth::Progress& now) {
+    checkpoint.keep_when_due(engine);
+    return watch(now);
+  };
   engine.run(Sampler{renderer, job.frame}, {.samples_per_pixel = job.samples_per_pixel}, pool,
-             watch, batch);
+             progress, batch);
+  checkpoint.keep(engine);
   const std::vector<float> means = freqsynth::reconstruct(engine.finished_image());
   const std::vector<float> depths = engine.nearest_pixels(depth);
   Pixels pixels(depths.size() * channels);

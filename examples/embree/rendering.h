@@ -6,8 +6,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <vector>
 
+#include "common/checkpoint.h"
 #include "glue.h"
 #ifndef EMBREE_HOST_HAS_TBB
 #include "freqsynth/engine/thread_pool.h"
@@ -36,12 +38,19 @@ inline constexpr std::size_t batch = 4096;
 /// Told how far it is; false ends the work.
 using Watch = std::function<bool(const freqsynth::Progress&)>;
 
+/// Keeps nothing.
+[[nodiscard]] inline Checkpoint no_checkpoint() { return {{}, {}, 0}; }
+
 /// A pool of so many threads; 0: all. One at a time: those of oneTBB share their threads.
 [[nodiscard]] HostPool make_pool(std::size_t threads);
 
 /// By freqsynth, which says where to sample. An early end leaves the picture of what there is.
+/// \param checkpoint  keeps its state
+/// \param resume      such a state to go on from; empty: from the beginning
+/// \throws std::runtime_error naming the file and the reason when it cannot go on from that.
 [[nodiscard]] Pixels render_adaptively(const Renderer& renderer, const Job& job, HostPool& pool,
-                                       const Watch& watch);
+                                       const Watch& watch, Checkpoint checkpoint = no_checkpoint(),
+                                       const std::string& resume = {});
 
 /// As many samples in each pixel, and their means; the depth of the sample nearest to the centre.
 /// Random numbers come with a jittered grid, Sobol points with Sobol points. An early end leaves

@@ -6,7 +6,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
+#include <limits>
 #include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -127,6 +130,23 @@ TEST(EmbreeRendering, EndsEarlyWhenAsked) {
   calls = 0;
   (void)render_plainly(colonnade(), job_of(64), path_tracer::Numbers::sobol, pool, twice);
   EXPECT_EQ(calls, 2);
+}
+
+TEST(EmbreeRendering, GoesOnWhereItWasInterruptedToTheBit) {
+  const std::string file = testing::TempDir() + "embree_state";
+  HostPool pool = make_pool(2);
+  int calls = 0;
+  const Watch some = [&](const freqsynth::Progress&) { return ++calls < 7; };
+  const Pixels part = render_adaptively(colonnade(), job_of(2), pool, some, {"test", file, 1e9});
+  const Pixels whole =
+      render_adaptively(colonnade(), job_of(2), pool, go_on, no_checkpoint(), file);
+  EXPECT_NE(part, whole);
+  EXPECT_EQ(whole, adaptive(2));
+  EXPECT_THROW(
+      (void)render_adaptively(colonnade(), job_of(2, 1), pool, go_on, no_checkpoint(), file),
+      std::runtime_error)
+      << "another frame";
+  std::remove(file.c_str());
 }
 
 TEST(EmbreeRendering, PlainSamplersRefuseFractions) {

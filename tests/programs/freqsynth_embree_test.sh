@@ -25,6 +25,9 @@ expect_failure 2 "--eye 1,2,x" "${small[@]}" --eye 1,2,x -o a.png
 expect_failure 2 "--target" "${small[@]}" --eye 1,2,3 --target 1,2,9 -o a.png
 expect_failure 2 "--field 171" "${small[@]}" --field 171 -o a.png
 expect_failure 2 "--sun-size 0" "${small[@]}" --sun-size 0 -o a.png
+expect_failure 2 "--checkpoint" "${small[@]}" --sampler sobol --checkpoint a.state -o a.png
+expect_failure 2 "--checkpoint-every" "${small[@]}" --checkpoint-every 3 -o a.png
+expect_failure 1 "none.state" "${small[@]}" --resume none.state -o a.png
 expect_failure 1 "no/folder" "${small[@]}" -o no/folder/a.png
 expect_failure 1 "a.unknown" "${small[@]}" -o a.unknown
 expect_failure 1 "none.obj" "${small[@]}" --obj none.obj -o a.png
@@ -60,13 +63,20 @@ else
   grep -qF "triangle.obj: built without tinyobjloader" said || fail "says $(cat said)"
 fi
 
-# What there is by an interrupt is written.
-"$program" --size 640x360 --spp 64 --threads 1 -o stopped.png >said 2>&1 &
-sleep 2
+# What there is by an interrupt is written, and it goes on from there.
+long=(--size 320x180 --spp 16 --threads 1)
+"$program" "${long[@]}" --checkpoint a.state -o stopped.png >said 2>&1 &
+sleep 1
 kill -INT $!
 code=0
 wait $! || code=$?
-[[ $code == 130 ]] || fail "interrupted: exit code $code, says $(cat said)"
-[[ -s stopped.png ]] || fail "interrupted: no picture"
+if [[ $code == 130 ]]; then  # not so on a machine that has done it all by then
+  [[ -s stopped.png && -s a.state ]] || fail "interrupted: no picture or no state"
+  "$program" "${long[@]}" --resume a.state -o resumed.png >said
+  "$program" "${long[@]}" -o whole.png >said
+  cmp resumed.png whole.png || fail "another picture after an interruption"
+else
+  [[ $code == 0 ]] || fail "interrupted: exit code $code, says $(cat said)"
+fi
 [[ -z $(find . -mindepth 1 -name '.*') ]] || fail "unfinished files are left"
 echo "freqsynth_embree: all as expected"
