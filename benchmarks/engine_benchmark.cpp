@@ -121,7 +121,7 @@ double peak_memory() {
   return 0;
 }
 
-/// From an empty engine to pixels, with engine, frequency image and pixels alive at the end. The
+/// From an empty engine to the finished picture, with engine and pixels alive at the end. The
 /// peak is the whole process's: run this case alone (--benchmark_filter=peak_memory) for an honest
 /// number.
 void memory(benchmark::State& state) {
@@ -130,8 +130,9 @@ void memory(benchmark::State& state) {
     reset_peak_memory();
     Synthesizer synthesizer(settings_of(state, List::own));
     synthesizer.run(DiscScene{}, one_per_pixel());
-    const FrequencyImage image = synthesizer.image();
-    const std::vector<float> pixels = reconstruct(image);
+    const SynthesisSettings& settings = synthesizer.settings();
+    std::vector<float> pixels(settings.width * settings.height * settings.channels);
+    synthesizer.finish({pixels.data(), settings.width, settings.height});
     benchmark::DoNotOptimize(pixels.data());
     peak = peak_memory();
   }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// How long a thread that renders is kept waiting while another one makes a preview: a finished
-// image of 1920 x 1080 pixels, RGB. A turn is a request of 1024 samples, their values and their
-// delivery. The time of a case is the longest turn that began during a preview, as the mean of the
-// previews; the counters are in milliseconds: the longest of all, the mean turn without a preview,
-// the mean preview. Needs two processors.
+// How long a thread that renders is kept waiting while another one makes a preview of 1920 x 1080
+// pixels, RGB: the image of the fit, a finished one, finished pixels. A turn is a request of 1024
+// samples, their values and their delivery. The time of a case is the longest turn that began
+// during a preview, as the mean of the previews; the counters are in milliseconds: the longest of
+// all, the mean turn without a preview, the mean preview. Needs two processors.
 
 #include <benchmark/benchmark.h>
 
@@ -46,7 +46,9 @@ class Renderer {
   std::vector<float> values_;
 };
 
-void preview(benchmark::State& state) {
+/// \param look  makes a preview
+template <class Look>
+void preview(benchmark::State& state, const Look& look) {
   const auto engine = sampled_engine(1920, 1080, 0.25);
   Renderer renderer(*engine);
   constexpr int turns = 1000;
@@ -60,8 +62,7 @@ void preview(benchmark::State& state) {
     std::jthread viewer([&] {
       const auto start = Clock::now();
       begun = true;
-      const FrequencyImage image = engine->finished_image();
-      benchmark::DoNotOptimize(image.coefficients(0, 0, 0)[0]);
+      look(*engine);
       preview_seconds = seconds_between(start, Clock::now());
       done = true;
     });
@@ -78,11 +79,34 @@ void preview(benchmark::State& state) {
   state.counters["preview_ms"] =
       benchmark::Counter(1e3 * previews, benchmark::Counter::kAvgIterations);
 }
-BENCHMARK(preview)
-    ->Name("preview/1920x1080/turn")
-    ->Iterations(10)
-    ->UseManualTime()
-    ->Unit(benchmark::kMillisecond);
+void image(benchmark::State& state) {
+  preview(state, [](const Synthesizer& engine) {
+    const FrequencyImage result = engine.image();
+    benchmark::DoNotOptimize(result.coefficients(0, 0, 0)[0]);
+  });
+}
+void finished_image(benchmark::State& state) {
+  preview(state, [](const Synthesizer& engine) {
+    const FrequencyImage result = engine.finished_image();
+    benchmark::DoNotOptimize(result.coefficients(0, 0, 0)[0]);
+  });
+}
+void finish(benchmark::State& state) {
+  std::vector<float> pixels(std::size_t{1920} * 1080 * 3);
+  preview(state, [&](const Synthesizer& engine) {
+    engine.finish({pixels.data(), 1920, 1080});
+    benchmark::DoNotOptimize(pixels.data());
+  });
+}
+#define FREQSYNTH_PREVIEW(function)               \
+  BENCHMARK(function)                             \
+      ->Name("preview/1920x1080/turn/" #function) \
+      ->Iterations(10)                            \
+      ->UseManualTime()                           \
+      ->Unit(benchmark::kMillisecond)
+FREQSYNTH_PREVIEW(image);
+FREQSYNTH_PREVIEW(finished_image);
+FREQSYNTH_PREVIEW(finish);
 
 }  // namespace
 }  // namespace freqsynth::bench

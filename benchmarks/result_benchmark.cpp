@@ -79,5 +79,21 @@ void pixels(benchmark::State& state) {
 }
 BENCHMARK(pixels)->Name("result/1920x1080/finished_pixels")->Unit(benchmark::kMillisecond);
 
+/// The same into memory that is reused, as a viewer would.
+void finish(benchmark::State& state, const FinishSettings& settings) {
+  std::vector<float> result(std::size_t{1920} * 1080 * 3);
+  for (auto _ : state) {
+    full_hd().finish({result.data(), 1920, 1080}, settings);
+    benchmark::DoNotOptimize(result.data());
+    benchmark::ClobberMemory();
+  }
+}
+BENCHMARK_CAPTURE(finish, exact, FinishSettings{})
+    ->Name("result/1920x1080/finish")
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(finish, noisy, FinishSettings{.noise = Noise::present})
+    ->Name("result/1920x1080/finish_noisy")
+    ->Unit(benchmark::kMillisecond);
+
 }  // namespace
 }  // namespace freqsynth::bench

@@ -27,6 +27,7 @@
 #include "freqsynth/engine/stop_rule.h"
 #include "freqsynth/image/finish_settings.h"
 #include "freqsynth/image/frequency_image.h"
+#include "freqsynth/image/pixel_view.h"
 #include "freqsynth/jpeg/quantization_target.h"
 #include "freqsynth/sampler.h"
 
@@ -168,12 +169,42 @@ class FREQSYNTH_API Synthesizer {
 
   /// The image as the paper has it: the fit of each block to the samples of completed waves, not
   /// filtered (CoefficientMeaning::point_function).
-  [[nodiscard]] FrequencyImage image() const;
+  [[nodiscard]] FrequencyImage image() const { return image_on({}); }
 
   /// The best image that the samples of completed waves allow: finished pixels
   /// (CoefficientMeaning::pixel_average), see PixelFinisher.
   /// \throws std::invalid_argument when a setting is out of range.
-  [[nodiscard]] FrequencyImage finished_image(const FinishSettings& settings = {}) const;
+  [[nodiscard]] FrequencyImage finished_image(const FinishSettings& settings = {}) const {
+    return finished_image_on(settings, {});
+  }
+
+  /// Both on an executor's threads; the result does not depend on it.
+  /// \throws what the executor throws, too.
+  template <class E>
+  requires Executor<std::remove_reference_t<E>>
+  [[nodiscard]] FrequencyImage image(E&& executor) const {
+    return image_on(detail::ExecutorRef(executor));
+  }
+  /// The same of finished pixels.
+  template <class E>
+  requires Executor<std::remove_reference_t<E>>
+  [[nodiscard]] FrequencyImage finished_image(const FinishSettings& settings, E&& executor) const {
+    return finished_image_on(settings, detail::ExecutorRef(executor));
+  }
+
+  /// Writes the finished picture into `out`: to the bit what reconstruct() makes of
+  /// finished_image(), in one pass and without the memory of a frequency image, where no pixel of
+  /// the output lies in two blocks: at the image's own size, at half of it, at whole multiples.
+  /// \throws like finished_image() and reconstruct(); what has been written stays.
+  void finish(const PixelView& out, const FinishSettings& settings = {}) const {
+    finish_on(out, settings, {});
+  }
+  /// The same on an executor's threads. \throws what the executor throws, too.
+  template <class E>
+  requires Executor<std::remove_reference_t<E>>
+  void finish(const PixelView& out, const FinishSettings& settings, E&& executor) const {
+    finish_on(out, settings, detail::ExecutorRef(executor));
+  }
 
   /// How far each pixel of finished_image(settings) is expected to be from the true mean over its
   /// area: the root of the expected squared error, in the values' unit; row by row, the channels of
@@ -227,6 +258,11 @@ class FREQSYNTH_API Synthesizer {
   RunReport run_erased(const detail::SamplerRef& sampler, const StopRule& stop,
                        const detail::ExecutorRef& executor, const detail::ProgressRef& progress,
                        std::size_t batch);
+  [[nodiscard]] FrequencyImage image_on(const detail::ExecutorRef& executor) const;
+  [[nodiscard]] FrequencyImage finished_image_on(const FinishSettings& settings,
+                                                 const detail::ExecutorRef& executor) const;
+  void finish_on(const PixelView& out, const FinishSettings& settings,
+                 const detail::ExecutorRef& executor) const;
 
   struct Implementation;
   Implementation* implementation_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <span>
 #include <string>
 #include <utility>
 #include <variant>
@@ -215,6 +216,17 @@ struct Synthesizer::Implementation {
     }
     return values;
   }
+  /// Calls use(grid, snapshot, settings, features): settings that say whether there is noise.
+  template <class Use>
+  auto with_snapshot(const FinishSettings& finish, Use&& use) const {
+    const std::vector<std::size_t> features = detail::channels_of(settings, ChannelRole::feature);
+    return with_engine([&](const auto& engine) {
+      return engine.with_snapshot(
+          [&](const BlockGrid& blocks_grid, const auto& blocks, bool noisy) {
+            return use(blocks_grid, blocks, detail::settings_for(finish, noisy), features);
+          });
+    });
+  }
 
   BlockGrid grid;
   SynthesisSettings settings;
@@ -299,24 +311,34 @@ FREQSYNTH_INLINE RunReport Synthesizer::run_erased(const detail::SamplerRef& sam
   });
 }
 
-FREQSYNTH_INLINE FrequencyImage Synthesizer::image() const {
-  return implementation_->shown(implementation_->with_engine([](const auto& engine) {
-    return engine.with_snapshot(
-        [](const BlockGrid& grid, const auto& blocks, bool) { return fit_image(grid, blocks); });
+FREQSYNTH_INLINE FrequencyImage Synthesizer::image_on(const detail::ExecutorRef& executor) const {
+  return implementation_->shown(implementation_->with_engine([&](const auto& engine) {
+    return engine.with_snapshot([&](const BlockGrid& grid, const auto& blocks, bool) {
+      return fit_image(grid, blocks, executor);
+    });
   }));
 }
 
-FREQSYNTH_INLINE FrequencyImage Synthesizer::finished_image(const FinishSettings& settings) const {
-  const SharedInverseList& list = implementation_->settings.shared_list;
-  const std::vector<std::size_t> features =
-      detail::channels_of(implementation_->settings, ChannelRole::feature);
+FREQSYNTH_INLINE FrequencyImage Synthesizer::finished_image_on(
+    const FinishSettings& settings, const detail::ExecutorRef& executor) const {
   settings.validate();
-  return implementation_->shown(implementation_->with_engine([&](const auto& engine) {
-    return engine.with_snapshot([&](const BlockGrid& grid, const auto& blocks, bool noisy) {
-      return freqsynth::finished_image(grid, blocks, list, detail::settings_for(settings, noisy),
-                                       features);
-    });
-  }));
+  return implementation_->shown(implementation_->with_snapshot(
+      settings, [&](const BlockGrid& grid, const auto& blocks, const FinishSettings& known,
+                    std::span<const std::size_t> features) {
+        const SharedInverseList& list = implementation_->settings.shared_list;
+        return freqsynth::finished_image(grid, blocks, list, known, features, executor);
+      }));
+}
+
+FREQSYNTH_INLINE void Synthesizer::finish_on(const PixelView& out, const FinishSettings& settings,
+                                             const detail::ExecutorRef& executor) const {
+  settings.validate();
+  implementation_->with_snapshot(settings, [&](const BlockGrid& grid, const auto& blocks,
+                                               const FinishSettings& known,
+                                               std::span<const std::size_t> features) {
+    const SharedInverseList& list = implementation_->settings.shared_list;
+    freqsynth::finish(grid, blocks, list, known, features, implementation_->shown(), out, executor);
+  });
 }
 
 FREQSYNTH_INLINE bool Synthesizer::noisy() const {

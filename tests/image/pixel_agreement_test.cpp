@@ -129,13 +129,16 @@ TEST(PixelAgreement, IsThatOfTheMeansOfOwnedSamples) {
     ++counts[pixel];
   }
   BlockFit fit{.coefficients = {}, .pixel_sums = sums, .residual = 0, .gaps = {}};
-  EXPECT_FALSE(owned.agreement(fit).holds()) << "own sums are not known";
+  std::array<float, max_terms> means;
+  EXPECT_FALSE(owned.agreement(fit, means).holds()) << "own sums are not known";
+  for (const float mean : means) EXPECT_EQ(mean, OwnMeans::unknown);
   fit.own_sums = sums;
   fit.spread = 0.25f;
-  const PixelAgreement agreement = owned.agreement(fit);
+  const PixelAgreement agreement = owned.agreement(fit, means);
   std::uint32_t pairs = 0, first = max_terms, last = 0;
   for (std::uint32_t pixel = 0; pixel < max_terms; ++pixel) {
     ASSERT_EQ(owned.any(pixel), counts[pixel] > 0) << pixel;
+    ASSERT_EQ(means[pixel], counts[pixel] > 0 ? static_cast<float>(pixel) : OwnMeans::unknown);
     if (counts[pixel] == 0) continue;
     ASSERT_EQ(owned.mean(sums, pixel), static_cast<float>(pixel));
     first = std::min(first, pixel);

@@ -78,7 +78,7 @@ using AddOuterProduct = void(double* matrix, const double* x, double scale, std:
 using Multiply = void(const double* matrix, const double* x, std::size_t terms, double* out);
 
 /// out(j) = (sums(j) - row j of `matrix` . amplitudes) * shares(j) for 64 rows of 64 floats.
-/// All arrays are aligned to 32 bytes.
+/// All arrays are aligned to 64 bytes.
 using ResidualMeans = void(const float* matrix, const float* amplitudes, const float* sums,
                            const float* shares, float* out);
 
@@ -119,6 +119,9 @@ using AddMeans = void(const float* means, const float* weights, float doubt, flo
 /// than any in `high`.
 using KnownMeans = void(const float* sums, const float* shares, PaddedBlock& low,
                         PaddedBlock& high);
+/// sum / count where count is not 0, PaddedBlock::none elsewhere; and into `ends` the least and the
+/// greatest of these quotients, PaddedBlock::none and its negative without any.
+using OwnedMeans = void(const float* sums, const float* counts, float* out, float* ends);
 /// Writes the least of `low` and the greatest of `high`.
 using LeastAndMost = void(const PaddedBlock& low, const PaddedBlock& high, float* out);
 /// The value that `rank` of the 64 are less than, or equal to it and before it; between least and
@@ -151,6 +154,7 @@ struct Kernels {
   ShrinkTerms* shrink_terms;
   AddMeans* add_means;
   KnownMeans* known_means;
+  OwnedMeans* owned_means;
   LeastAndMost* least_and_most;
   ValueOfRank* value_of_rank;
   ExtremesAround* extremes_around;
@@ -174,6 +178,7 @@ FREQSYNTH_API ForwardTransform forward_transform;
 FREQSYNTH_API ShrinkTerms shrink_terms;
 FREQSYNTH_API AddMeans add_means;
 FREQSYNTH_API KnownMeans known_means;
+FREQSYNTH_API OwnedMeans owned_means;
 FREQSYNTH_API LeastAndMost least_and_most;
 FREQSYNTH_API ValueOfRank value_of_rank;
 FREQSYNTH_API ExtremesAround extremes_around;

@@ -85,6 +85,7 @@ inline constexpr Kernels plain_kernels = {
     &plain::shrink_terms,
     &plain::add_means,
     &plain::known_means,
+    &plain::owned_means,
     &plain::least_and_most,
     &plain::value_of_rank,
     &plain::extremes_around,
@@ -104,6 +105,7 @@ inline constexpr Kernels avx2_kernels = {
     &avx2::shrink_terms,
     &avx2::add_means,
     &avx2::known_means,
+    &avx2::owned_means,
     &avx2::least_and_most,
     &avx2::value_of_rank,
     &avx2::extremes_around,
@@ -123,6 +125,7 @@ inline constexpr Kernels avx512_kernels = [] {
   kernels.shrink_terms = &avx512::shrink_terms;
   kernels.add_means = &avx512::add_means;
   kernels.known_means = &avx512::known_means;
+  kernels.owned_means = &avx512::owned_means;
   kernels.least_and_most = &avx512::least_and_most;
   kernels.value_of_rank = &avx512::value_of_rank;
   kernels.extremes_around = &avx512::extremes_around;
@@ -179,6 +182,7 @@ inline constexpr Kernels undecided_kernels = {
     &Undecided<&Kernels::shrink_terms>::call,
     &Undecided<&Kernels::add_means>::call,
     &Undecided<&Kernels::known_means>::call,
+    &Undecided<&Kernels::owned_means>::call,
     &Undecided<&Kernels::least_and_most>::call,
     &Undecided<&Kernels::value_of_rank>::call,
     &Undecided<&Kernels::extremes_around>::call,
@@ -251,6 +255,10 @@ FREQSYNTH_INLINE void add_means(const float* means, const float* weights, float 
 FREQSYNTH_INLINE void known_means(const float* sums, const float* shares, PaddedBlock& low,
                                   PaddedBlock& high) {
   kernels().known_means(sums, shares, low, high);
+}
+
+FREQSYNTH_INLINE void owned_means(const float* sums, const float* counts, float* out, float* ends) {
+  kernels().owned_means(sums, counts, out, ends);
 }
 
 FREQSYNTH_INLINE void least_and_most(const PaddedBlock& low, const PaddedBlock& high, float* out) {

@@ -4,24 +4,41 @@
 
 namespace freqsynth::detail::FREQSYNTH_KERNEL_SET {
 
+/// The upper half of 16 lanes added to the lower one.
+template <class T>
+FREQSYNTH_KERNEL_INLINE Pack<T, 8> folded(const Pack<T, 16>& a) {
+  using Half = Pack<T, 8>;
+  using Register = typename Half::Register;
+  Half half;
+  if constexpr (Pack<T, 16>::count == 1) {
+    const auto& x = a.part[0];
+    half.part[0] = Register{x[0], x[1], x[2], x[3], x[4], x[5], x[6], x[7]} +
+                   Register{x[8], x[9], x[10], x[11], x[12], x[13], x[14], x[15]};
+  } else {
+    for (std::size_t k = 0; k < Half::count; ++k) {
+      half.part[k] = a.part[k] + a.part[k + Half::count];
+    }
+  }
+  return half;
+}
+
 FREQSYNTH_KERNEL
 void residual_means(const float* matrix, const float* amplitudes, const float* sums,
                     const float* shares, float* out) {
   FREQSYNTH_KERNEL_BEGIN
-  using Part = Pack<float, 8>;
+  using Part = Pack<float, 16>;
+  using Four = Pack<float, 4>;
   for (std::size_t j = 0; j < max_terms; j += 4) {
     const float* row = matrix + j * max_terms;
-    Part even[4] = {}, odd[4] = {};
+    Part fits[4] = {};
     for (std::size_t i = 0; i < max_terms; i += 16) {
-      const Part first = Part::load(amplitudes + i), second = Part::load(amplitudes + i + 8);
+      const Part amplitude = Part::load(amplitudes + i);
       for (std::size_t k = 0; k < 4; ++k) {
-        even[k] += Part::load(row + k * max_terms + i) * first;
-        odd[k] += Part::load(row + k * max_terms + i + 8) * second;
+        fits[k] += Part::load(row + k * max_terms + i) * amplitude;
       }
     }
-    const Pack<float, 4> fits =
-        sums_of(even[0] + odd[0], even[1] + odd[1], even[2] + odd[2], even[3] + odd[3]);
-    ((Pack<float, 4>::load(sums + j) - fits) * Pack<float, 4>::load(shares + j)).store(out + j);
+    const Four sum = sums_of(folded(fits[0]), folded(fits[1]), folded(fits[2]), folded(fits[3]));
+    ((Four::load(sums + j) - sum) * Four::load(shares + j)).store(out + j);
   }
 }
 

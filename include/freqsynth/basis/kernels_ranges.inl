@@ -43,14 +43,8 @@ void known_means(const float* sums, const float* shares, PaddedBlock& low, Padde
   }
 }
 
-FREQSYNTH_KERNEL
-void least_and_most(const PaddedBlock& low, const PaddedBlock& high, float* out) {
-  FREQSYNTH_KERNEL_BEGIN
-  Float8 least = Float8::load(row_of(low, 0)), most = Float8::load(row_of(high, 0));
-  for (std::size_t y = 1; y < block_size; ++y) {
-    least = lesser(least, Float8::load(row_of(low, y)));
-    most = greater(most, Float8::load(row_of(high, y)));
-  }
+/// Writes the least lane and the greatest one.
+FREQSYNTH_KERNEL_INLINE void ends_of(const Float8& least, const Float8& most, float* out) {
   alignas(32) float lows[8], highs[8];
   least.store(lows);
   most.store(highs);
@@ -62,6 +56,33 @@ void least_and_most(const PaddedBlock& low, const PaddedBlock& high, float* out)
   }
 }
 
+FREQSYNTH_KERNEL
+void least_and_most(const PaddedBlock& low, const PaddedBlock& high, float* out) {
+  FREQSYNTH_KERNEL_BEGIN
+  Float8 least = Float8::load(row_of(low, 0)), most = Float8::load(row_of(high, 0));
+  for (std::size_t y = 1; y < block_size; ++y) {
+    least = lesser(least, Float8::load(row_of(low, y)));
+    most = greater(most, Float8::load(row_of(high, y)));
+  }
+  ends_of(least, most, out);
+}
+
+FREQSYNTH_KERNEL
+void owned_means(const float* sums, const float* counts, float* out, float* ends) {
+  FREQSYNTH_KERNEL_BEGIN
+  const Float8 none = all_lanes<Float8>(PaddedBlock::none);
+  Float8 least = none, most = Float8{} - none;
+  for (std::size_t i = 0; i < max_terms; i += 8) {
+    const Float8 count = Float8::load(counts + i);
+    const Float8 mean = quotient(Float8::load_unaligned(sums + i), count);
+    const Float8 low = if_less(Float8{}, count, mean, none);
+    low.store_unaligned(out + i);
+    least = lesser(least, low);
+    most = greater(most, if_less(Float8{}, count, mean, Float8{} - none));
+  }
+  ends_of(least, most, ends);
+}
+
 /// A number for each float, with the floats' order.
 FREQSYNTH_KERNEL_INLINE int key_of(float value) {
   int key;
@@ -69,10 +90,32 @@ FREQSYNTH_KERNEL_INLINE int key_of(float value) {
   return key ^ ((key >> 31) & 0x7fffffff);
 }
 
+/// The lanes in an order in which each `step` of them change places with the next ones.
+template <std::size_t step, class Keys>
+FREQSYNTH_KERNEL_INLINE Keys swapped(const Keys& x) {
+  if constexpr (sizeof(Keys) == 8 * sizeof(int)) {
+    if constexpr (step == 4) return Keys{x[4], x[5], x[6], x[7], x[0], x[1], x[2], x[3]};
+    if constexpr (step == 2) return Keys{x[2], x[3], x[0], x[1], x[6], x[7], x[4], x[5]};
+    if constexpr (step == 1) return Keys{x[1], x[0], x[3], x[2], x[5], x[4], x[7], x[6]};
+  } else {
+    if constexpr (step == 2) return Keys{x[2], x[3], x[0], x[1]};
+    if constexpr (step == 1) return Keys{x[1], x[0], x[3], x[2]};
+  }
+}
+
+/// Sum, greatest and least of the lanes of three, each in all lanes.
+template <std::size_t step, class Keys>
+FREQSYNTH_KERNEL_INLINE void fold(Keys& sum, Keys& most, Keys& least) {
+  const Keys others = swapped<step>(most), more = swapped<step>(least);
+  sum += swapped<step>(sum);
+  most = others > most ? others : most;
+  least = more < least ? more : least;
+}
+
 FREQSYNTH_KERNEL
 float value_of_rank(const PaddedBlock& values, std::size_t rank, float least, float most) {
   FREQSYNTH_KERNEL_BEGIN
-  // The key is found by halves.
+  // Halves the range of keys, each time to the keys that there are.
   constexpr std::size_t bytes = FREQSYNTH_KERNEL_BYTES < 32 ? FREQSYNTH_KERNEL_BYTES : 32;
   constexpr std::size_t own = bytes / sizeof(int), count = max_terms / own;
   typedef int Keys __attribute__((vector_size(bytes)));
@@ -84,14 +127,23 @@ float value_of_rank(const PaddedBlock& values, std::size_t rank, float least, fl
   int low = key_of(least), high = key_of(most);
   while (low < high) {
     const int middle = static_cast<int>((static_cast<long long>(low) + high) >> 1);
-    Keys below = {};
-    for (std::size_t k = 0; k < count; ++k) below -= keys[k] <= middle;
-    int sum = 0;
-    for (std::size_t i = 0; i < own; ++i) sum += below[i];
-    if (static_cast<std::size_t>(sum) > rank) {
-      high = middle;
+    const Keys lowest = low - Keys{}, highest = high - Keys{};
+    Keys numbers = {}, below = lowest, above = highest;
+    for (std::size_t k = 0; k < count; ++k) {
+      const Keys is_below = keys[k] <= middle;
+      numbers -= is_below;
+      const Keys lower = is_below ? keys[k] : lowest;
+      const Keys higher = is_below ? highest : keys[k];
+      below = lower > below ? lower : below;
+      above = higher < above ? higher : above;
+    }
+    fold<own / 2>(numbers, below, above);
+    fold<own / 4>(numbers, below, above);
+    if constexpr (own == 8) fold<1>(numbers, below, above);
+    if (static_cast<std::size_t>(numbers[0]) > rank) {
+      high = below[0];
     } else {
-      low = middle + 1;
+      low = above[0];
     }
   }
   const int bits = low ^ ((low >> 31) & 0x7fffffff);
@@ -185,22 +237,24 @@ void hold_flat(const float* means, std::size_t stride, float alike, float most_o
   const Float8 most = all_lanes<Float8>(alike), one = all_lanes<Float8>(1.0f);
   for (std::size_t y = 0; y < block_size; ++y) {
     const Float8 own = Float8::load_unaligned(means + (y + 1) * stride + 1);
-    Float8 low = own, high = own, count = {};
+    Float8 low = own, high = own, count = one;
     for (std::size_t row = y; row < y + 3; ++row) {
       for (std::size_t shift = 0; shift < 3; ++shift) {
+        if (row == y + 1 && shift == 1) continue;
         const Float8 other = Float8::load_unaligned(means + row * stride + shift);
         const Float8 difference = other - own;
-        const Float8 distance = if_less(difference, Float8{}, Float8{} - difference, difference);
+        const Float8 distance = greater(difference, Float8{} - difference);
         // Not alike: the own value and nothing to count.
-        low = if_less(most, distance, low, lesser(other, low));
-        high = if_less(most, distance, high, greater(other, high));
+        const Float8 same = if_less(most, distance, own, other);
+        low = lesser(low, same);
+        high = greater(high, same);
         count += if_less(most, distance, Float8{}, one);
       }
     }
     const Float8 pixel = Float8::load(pixels + y * block_size);
     const Float8 held = if_less(pixel, low, low, if_less(high, pixel, high, pixel));
     const Float8 off = pixel - held;
-    const Float8 distance = if_less(off, Float8{}, Float8{} - off, off);
+    const Float8 distance = greater(off, Float8{} - off);
     const Float8 all = all_lanes<Float8>(8.5f), few = all_lanes<Float8>(2.5f);
     const Float8 limit = all_lanes<Float8>(most_off), none = all_lanes<Float8>(PaddedBlock::none);
     const Float8 close = if_less(limit, distance, pixel, held);

@@ -43,6 +43,8 @@ class BlockSnapshot {
   [[nodiscard]] std::size_t channels() const { return exponents_.size(); }
   /// Number of blocks.
   [[nodiscard]] std::size_t size() const { return counts_.size(); }
+  /// Samples that blocks had.
+  [[nodiscard]] std::span<const std::uint32_t> counts() const { return counts_; }
   /// Samples that a block had.
   [[nodiscard]] std::uint32_t samples(std::size_t block) const { return counts_[block]; }
   /// Binary logarithm of a channel's unit.
@@ -75,6 +77,24 @@ class BlockSnapshot {
   /// See Refiner.
   [[nodiscard]] BlockFit fit(std::size_t block, const float* state, std::size_t channel) const {
     return refiner_.fit(state, counts_[block], channel);
+  }
+  /// Sums of the samples that lie in each pixel and their spread, see BlockFit.
+  struct OwnSamples {
+    std::span<const float> sums;  ///< none: not known
+    float spread;                 ///< of the channel's unit
+  };
+  /// Those of a channel.
+  [[nodiscard]] OwnSamples own_samples(std::size_t block, const float* state,
+                                       std::size_t channel) const {
+    if constexpr (requires {
+                    refiner_.own_sums(state, channel);
+                    refiner_.spread(state, channel);
+                  }) {
+      return {refiner_.own_sums(state, channel), refiner_.spread(state, channel)};
+    } else {
+      const BlockFit fit = this->fit(block, state, channel);
+      return {fit.own_sums, fit.spread};
+    }
   }
   /// Whether any sample of a block had no usable value.
   [[nodiscard]] bool any_gaps(std::size_t block) const { return gaps_.any(block); }

@@ -53,4 +53,34 @@ struct SerialExecutor {
   static constexpr std::size_t concurrency() { return 1; }
 };
 
+namespace detail {
+
+/// A reference to an executor; by itself, to one that runs everything on the calling thread.
+class ExecutorRef {
+ public:
+  ExecutorRef()
+      : executor_(nullptr),
+        execute_(
+            [](void*, std::size_t count, TaskRef task) { SerialExecutor::execute(count, task); }),
+        concurrency_([](void*) { return SerialExecutor::concurrency(); }) {}
+  template <Executor E>
+  explicit ExecutorRef(E& executor)
+      : executor_(const_cast<void*>(static_cast<const void*>(&executor))),
+        execute_([](void* object, std::size_t count, TaskRef task) {
+          static_cast<E*>(object)->execute(count, task);
+        }),
+        concurrency_(
+            [](void* object) -> std::size_t { return static_cast<E*>(object)->concurrency(); }) {}
+
+  void execute(std::size_t count, TaskRef task) const { execute_(executor_, count, task); }
+  [[nodiscard]] std::size_t concurrency() const { return concurrency_(executor_); }
+
+ private:
+  void* executor_;
+  void (*execute_)(void*, std::size_t, TaskRef);
+  std::size_t (*concurrency_)(void*);
+};
+
+}  // namespace detail
+
 }  // namespace freqsynth

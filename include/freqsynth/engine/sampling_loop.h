@@ -59,27 +59,6 @@ class SamplerRef {
   std::size_t channels_, stride_;
 };
 
-/// A reference to an executor.
-class ExecutorRef {
- public:
-  template <Executor E>
-  explicit ExecutorRef(E& executor)
-      : executor_(const_cast<void*>(static_cast<const void*>(&executor))),
-        execute_([](void* object, std::size_t count, TaskRef task) {
-          static_cast<E*>(object)->execute(count, task);
-        }),
-        concurrency_(
-            [](void* object) -> std::size_t { return static_cast<E*>(object)->concurrency(); }) {}
-
-  void execute(std::size_t count, TaskRef task) const { execute_(executor_, count, task); }
-  [[nodiscard]] std::size_t concurrency() const { return concurrency_(executor_); }
-
- private:
-  void* executor_;
-  void (*execute_)(void*, std::size_t, TaskRef);
-  std::size_t (*concurrency_)(void*);
-};
-
 }  // namespace freqsynth::detail
 
 namespace freqsynth {

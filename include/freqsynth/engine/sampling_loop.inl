@@ -14,17 +14,7 @@
 #include "freqsynth/basis/aligned.h"
 #include "freqsynth/basis/check.h"
 #include "freqsynth/engine/sampling_loop.h"
-
-// Ending a thread from outside unwinds its stack by an exception that may not be swallowed.
-#if defined(__GLIBCXX__) && defined(__linux__)
-#include <cxxabi.h>
-#define FREQSYNTH_RETHROW_CANCELLATION \
-  catch (abi::__forced_unwind&) {      \
-    throw;                             \
-  }
-#else
-#define FREQSYNTH_RETHROW_CANCELLATION
-#endif
+#include "freqsynth/engine/shared_work.h"
 
 namespace freqsynth::detail {
 
@@ -209,5 +199,3 @@ RunReport run_loop(E& engine, std::size_t channels, const SamplerRef& sampler, c
 }
 
 }  // namespace freqsynth::detail
-
-#undef FREQSYNTH_RETHROW_CANCELLATION

@@ -11,6 +11,7 @@
 #include "freqsynth/basis/config.h"
 #include "freqsynth/basis/dct.h"
 #include "freqsynth/engine/block_grid.h"
+#include "freqsynth/engine/executor.h"
 #include "freqsynth/image/lift_negative.h"
 #include "freqsynth/image/noisy_picture.h"
 #include "freqsynth/image/pixel_finisher.h"
@@ -20,10 +21,18 @@
 namespace freqsynth {
 namespace detail {
 
-/// The cells of all blocks as one picture with noise.
+/// The cells of all blocks as one picture with noise: of the channels that are smoothed, which have
+/// a weight, and of those that guide this.
 class BlockPicture {
  public:
-  BlockPicture(const BlockGrid& grid, std::size_t channels) : grid_(grid) {
+  BlockPicture(const BlockGrid& grid, std::span<const float> weights,
+               std::span<const std::size_t> features)
+      : grid_(grid), planes_(weights.size(), none) {
+    for (std::size_t c = 0; c < weights.size(); ++c) {
+      if (weights[c] > 0) use(c, smoothed_);
+    }
+    for (const std::size_t c : features) use(c, features_);
+    const std::size_t channels = smoothed_.size() + features_.size();
     picture_.width = grid.blocks_x * block_size;
     picture_.height = grid.blocks_y * block_size;
     picture_.weights.resize(picture_.width * picture_.height);
@@ -32,27 +41,27 @@ class BlockPicture {
     picture_.variances.assign(channels, NoisyPicture::Plane(grid.size()));
   }
 
+  /// Whether a channel is in the picture.
+  [[nodiscard]] bool has(std::size_t channel) const { return planes_[channel] != none; }
+
   /// Takes what the samples of a block say, and its finished coefficients.
   void add(const PixelFinisher& finisher, const BlockFit& fit, std::size_t block,
            std::size_t channel, std::span<const float, max_terms> coefficients) {
     std::array<float, max_terms> weights, sums, pixels;
     inverse_dct(coefficients, pixels);
     finisher.pixel_samples(fit, pixels, weights, sums);
-    picture_.variances[channel][block] = fit.residual;
+    const std::size_t plane = planes_[channel];
+    picture_.variances[plane][block] = fit.residual;
     visit(block, [&](std::size_t cell, std::size_t pixel) {
       picture_.weights[pixel] = weights[cell];
-      picture_.sums[channel][pixel] = sums[cell];
-      picture_.pixels[channel][pixel] = pixels[cell];
+      picture_.sums[plane][pixel] = sums[cell];
+      picture_.pixels[plane][pixel] = pixels[cell];
     });
   }
 
   /// Smooths the channels that have a weight.
-  void smooth(std::span<const float> weights, std::span<const std::size_t> features) {
-    std::vector<std::size_t> channels;
-    for (std::size_t c = 0; c < weights.size(); ++c) {
-      if (weights[c] > 0) channels.push_back(c);
-    }
-    smooth_noise(picture_, channels, features);
+  void smooth(const ExecutorRef& executor) {
+    smooth_noise_on(picture_, smoothed_, features_, executor);
   }
 
   /// The coefficients of a block.
@@ -60,14 +69,29 @@ class BlockPicture {
   void take(std::size_t block, std::size_t channel, bool positive,
             std::span<float, max_terms> coefficients) const {
     std::array<float, max_terms> pixels;
-    visit(block, [&](std::size_t cell, std::size_t pixel) {
-      pixels[cell] = picture_.pixels[channel][pixel];
-    });
+    const NoisyPicture::Plane& plane = picture_.pixels[planes_[channel]];
+    visit(block, [&](std::size_t cell, std::size_t pixel) { pixels[cell] = plane[pixel]; });
     if (positive) lift_negative(pixels);
     forward_dct(pixels, coefficients);
   }
+  /// What becomes of the coefficients of a channel that is not in the picture.
+  static void pass(std::span<const float, max_terms> coefficients, bool positive,
+                   std::span<float, max_terms> out) {
+    std::array<float, max_terms> pixels;
+    inverse_dct(coefficients, pixels);
+    if (positive) lift_negative(pixels);
+    forward_dct(pixels, out);
+  }
 
  private:
+  static constexpr std::size_t none = static_cast<std::size_t>(-1);
+
+  /// Gives a channel the next plane, unless it has one.
+  void use(std::size_t channel, std::vector<std::size_t>& planes) {
+    if (has(channel)) return;
+    planes_[channel] = smoothed_.size() + features_.size();
+    planes.push_back(planes_[channel]);
+  }
   /// Calls visit(cell of the block, pixel of the picture).
   template <class Visit>
   void visit(std::size_t block, Visit&& visit) const {
@@ -79,6 +103,8 @@ class BlockPicture {
   }
 
   const BlockGrid& grid_;
+  std::vector<std::size_t> planes_;               // of each channel
+  std::vector<std::size_t> smoothed_, features_;  // planes
   NoisyPicture picture_;
 };
 

@@ -7,9 +7,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "freqsynth/basis/config.h"
+#include "freqsynth/engine/executor.h"
 
 namespace freqsynth {
 
@@ -51,6 +53,24 @@ class ButterworthTable {
   std::vector<Entry> entries_;  // by rising number of samples
   std::vector<std::array<float, max_terms>> factors_;
   Entry last_ = {0, 0};  // neighbours often have the same number
+};
+
+/// The factors of several numbers of samples, to be read by several threads.
+class FREQSYNTH_API ButterworthFilters {
+ public:
+  /// Those of all numbers that there are in `samples`.
+  /// \param scale  another factor per zig-zag term, whatever the number of samples; empty: 1
+  ButterworthFilters(const ButterworthSettings& settings, std::span<const std::uint32_t> samples,
+                     const ExecutorRef& executor, std::span<const float> scale = {});
+
+  /// The factors after a number of samples that there was.
+  [[nodiscard]] const std::array<float, max_terms>& of(std::uint32_t samples) const {
+    return factors_[places_[samples]];
+  }
+
+ private:
+  std::vector<std::uint32_t> places_;  // by number of samples
+  std::vector<std::array<float, max_terms>> factors_;
 };
 
 }  // namespace detail

@@ -10,6 +10,7 @@
 #include "freqsynth/basis/check.h"
 #include "freqsynth/basis/dct.h"
 #include "freqsynth/basis/float_bits.h"
+#include "freqsynth/engine/shared_work.h"
 #include "freqsynth/image/butterworth.h"
 
 namespace freqsynth {
@@ -32,8 +33,10 @@ FREQSYNTH_INLINE std::array<float, max_terms> butterworth_factors(
   const double cutoff = settings.cutoff * std::sqrt(static_cast<double>(samples));
   for (std::size_t i = 1; i < max_terms; ++i) {
     const Frequency f = frequency_of_term(i);
+    if (f.u > f.v) continue;
     const double d = std::hypot(f.u, f.v);
-    factors[i] = static_cast<float>(1 / (1 + std::pow(d / cutoff, 2 * settings.order)));
+    factors[i] = factors[term_of_frequency(f.v, f.u)] =
+        static_cast<float>(1 / (1 + std::pow(d / cutoff, 2 * settings.order)));
   }
   return factors;
 }
@@ -58,6 +61,30 @@ FREQSYNTH_INLINE const std::array<float, max_terms>& ButterworthTable::of(std::u
   }
   last_ = *entry;
   return factors_[last_.place];
+}
+
+FREQSYNTH_INLINE ButterworthFilters::ButterworthFilters(const ButterworthSettings& settings,
+                                                        std::span<const std::uint32_t> samples,
+                                                        const ExecutorRef& executor,
+                                                        std::span<const float> scale) {
+  std::uint32_t most = 0;
+  for (const std::uint32_t count : samples) most = std::max(most, count);
+  places_.resize(std::size_t{most} + 1);
+  for (const std::uint32_t count : samples) places_[count] = 1;
+  std::vector<std::uint32_t> numbers;
+  for (std::uint32_t count = 0; count <= most; ++count) {
+    if (places_[count] == 0) continue;
+    places_[count] = static_cast<std::uint32_t>(numbers.size());
+    numbers.push_back(count);
+  }
+  factors_.resize(numbers.size());
+  constexpr std::size_t some = 64;
+  share_pieces(executor, (numbers.size() + some - 1) / some, [&](std::size_t piece) {
+    for (std::size_t i = piece * some; i < std::min((piece + 1) * some, numbers.size()); ++i) {
+      factors_[i] = butterworth_factors(settings, numbers[i]);
+      for (std::size_t k = 0; k < scale.size(); ++k) factors_[i][k] *= scale[k];
+    }
+  });
 }
 
 }  // namespace detail

@@ -15,6 +15,7 @@
 #include <limits>
 #include <span>
 
+#include "freqsynth/basis/aligned.h"
 #include "freqsynth/basis/config.h"
 #include "freqsynth/basis/kernels.h"
 #include "freqsynth/image/own_means.h"
@@ -61,43 +62,51 @@ class OwnedSamples {
  public:
   /// One more sample of the sequence.
   void add(const detail::SampleRow& row) {
-    if (row.own_pixel != detail::SampleRow::no_pixel) ++counts_[row.own_pixel];
+    if (row.own_pixel == detail::SampleRow::no_pixel) return;
+    counts_[row.own_pixel] += 1;
+    pairs_ += counts_[row.own_pixel] == 2 ? 1 : 0;
   }
 
   /// One that was added less.
   void remove(const detail::SampleRow& row) {
-    if (row.own_pixel != detail::SampleRow::no_pixel) --counts_[row.own_pixel];
+    if (row.own_pixel == detail::SampleRow::no_pixel) return;
+    pairs_ -= counts_[row.own_pixel] == 2 ? 1 : 0;
+    counts_[row.own_pixel] -= 1;
   }
 
   /// Whether a pixel has any.
   [[nodiscard]] bool any(std::size_t pixel) const { return counts_[pixel] > 0; }
   /// The mean of those in a pixel that has some, of their sums in each pixel (BlockFit::own_sums).
   [[nodiscard]] float mean(std::span<const float> sums, std::size_t pixel) const {
-    return sums[pixel] / static_cast<float>(counts_[pixel]);
+    return sums[pixel] / counts_[pixel];
   }
   /// The means in all pixels; OwnMeans::unknown where there is none, or no sum is known.
-  void means(std::span<const float> sums, std::span<float, max_terms> out) const {
-    for (std::size_t pixel = 0; pixel < max_terms; ++pixel) {
-      out[pixel] = any(pixel) && !sums.empty() ? mean(sums, pixel) : OwnMeans::unknown;
+  /// \return how well they agree, if none of the samples was a gap: the spread of the sums' fit is
+  ///         still to be added; PixelAgreement::none() where that is not known
+  PixelAgreement means(std::span<const float> sums, std::span<float, max_terms> out) const {
+    static_assert(OwnMeans::unknown == detail::PaddedBlock::none);
+    if (sums.empty()) {
+      for (float& mean : out) mean = OwnMeans::unknown;
+      return PixelAgreement::none();
     }
-  }
-  /// How well those of a block agree within its pixels; not at all where that is not known.
-  /// \param fit  of all samples, none of which was a gap
-  [[nodiscard]] PixelAgreement agreement(const BlockFit& fit) const {
-    if (fit.own_sums.empty()) return PixelAgreement::none();
+    std::array<float, 2> ends;
+    detail::owned_means(sums.data(), counts_.data(), out.data(), ends.data());
     PixelAgreement agreement;
-    agreement.spread = fit.spread;
-    for (std::size_t pixel = 0; pixel < max_terms; ++pixel) {
-      if (!any(pixel)) continue;
-      agreement.low = std::min(agreement.low, mean(fit.own_sums, pixel));
-      agreement.high = std::max(agreement.high, mean(fit.own_sums, pixel));
-      agreement.pairs += counts_[pixel] > 1 ? 1 : 0;
-    }
+    agreement.low = ends[0];
+    agreement.high = ends[1];
+    agreement.pairs = pairs_;
+    return agreement;
+  }
+  /// The same of a fit of all samples, none of which was a gap, with its spread.
+  PixelAgreement agreement(const BlockFit& fit, std::span<float, max_terms> out) const {
+    PixelAgreement agreement = means(fit.own_sums, out);
+    agreement.spread = std::max(agreement.spread, fit.spread);
     return agreement;
   }
 
  private:
-  std::array<std::uint32_t, max_terms> counts_ = {};
+  detail::AlignedBlock counts_ = {};
+  std::uint32_t pairs_ = 0;  // pixels with two or more
 };
 
 }  // namespace freqsynth

@@ -24,6 +24,7 @@
 #include "freqsynth/basis/config.h"
 #include "freqsynth/basis/kernels.h"
 #include "freqsynth/basis/shared_list.h"
+#include "freqsynth/image/butterworth.h"
 #include "freqsynth/image/finish_settings.h"
 #include "freqsynth/image/own_means.h"
 #include "freqsynth/image/pixel_agreement.h"
@@ -46,8 +47,14 @@ struct PixelEvidence {
 /// each pixel's samples of every term, is shared by all blocks with the same number of samples.
 class FREQSYNTH_API PixelFinisher {
  public:
+  /// \param filters  the factors of the settings' filter after all numbers of samples that will
+  ///                 come, which it refers to; null: they are computed
   /// \throws std::invalid_argument when a setting is out of range or there is no list.
-  PixelFinisher(SharedInverseList list, const FinishSettings& settings);
+  PixelFinisher(SharedInverseList list, const FinishSettings& settings,
+                const detail::ButterworthFilters* filters = nullptr);
+
+  /// Back to blocks without samples.
+  void restart();
 
   /// Goes on to blocks with `samples` samples; not less than before.
   void advance(std::size_t samples);
@@ -87,6 +94,7 @@ class FREQSYNTH_API PixelFinisher {
              const PixelEvidence& evidence) const;
 
   SharedInverseList list_;
+  const detail::ButterworthFilters* filters_;
   FinishSettings settings_;
   std::size_t samples_ = 0;
   std::array<float, max_terms> box_;     // mean over a pixel of each term, relative to its centre

@@ -39,12 +39,21 @@ inline void count_around(const AlignedBlock& weights, AlignedBlock& counts) {
 }  // namespace detail
 
 FREQSYNTH_INLINE PixelFinisher::PixelFinisher(SharedInverseList list,
-                                              const FinishSettings& settings)
-    : list_(std::move(list)), settings_(settings), sums_(max_terms * max_terms) {
+                                              const FinishSettings& settings,
+                                              const detail::ButterworthFilters* filters)
+    : list_(std::move(list)), filters_(filters), settings_(settings), sums_(max_terms * max_terms) {
   settings.validate();
   if (!list_) detail::refuse("there is no inverse list");
   for (std::size_t i = 0; i < max_terms; ++i) box_[i] = static_cast<float>(pixel_mean_of_term(i));
+  restart();
+}
+
+FREQSYNTH_INLINE void PixelFinisher::restart() {
+  samples_ = 0;
+  owned_ = {};
+  border_ = {};
   weights_.fill(0);
+  std::fill(sums_.begin(), sums_.end(), 0.0f);
   weigh();
   filter_ = butterworth_factors(settings_.butterworth, 0);
 }
@@ -71,7 +80,8 @@ FREQSYNTH_INLINE void PixelFinisher::advance(std::size_t samples) {
       weights_[row.pixels[p]] += row.pixel_weights[p];
     }
   }
-  filter_ = butterworth_factors(settings_.butterworth, samples);
+  filter_ = filters_ ? filters_->of(static_cast<std::uint32_t>(samples))
+                     : butterworth_factors(settings_.butterworth, samples);
   weigh();
 }
 

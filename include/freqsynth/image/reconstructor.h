@@ -6,9 +6,11 @@
 
 #include <cstddef>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "freqsynth/basis/config.h"
+#include "freqsynth/engine/executor.h"
 #include "freqsynth/image/butterworth.h"
 #include "freqsynth/image/frequency_image.h"
 #include "freqsynth/image/pixel_filter.h"
@@ -34,6 +36,21 @@ struct ReconstructionSettings {
 ///         strides of `out` put two values in one place.
 FREQSYNTH_API void reconstruct(const FrequencyImage& image, const ReconstructionSettings& settings,
                                const PixelView& out);
+
+namespace detail {
+FREQSYNTH_API void reconstruct_on(const FrequencyImage& image,
+                                  const ReconstructionSettings& settings, const PixelView& out,
+                                  const ExecutorRef& executor);
+}  // namespace detail
+
+/// The same on an executor's threads; the result does not depend on it.
+/// \throws what the executor throws, too.
+template <class E>
+requires Executor<std::remove_reference_t<E>>
+void reconstruct(const FrequencyImage& image, const ReconstructionSettings& settings,
+                 const PixelView& out, E&& executor) {
+  detail::reconstruct_on(image, settings, out, detail::ExecutorRef(executor));
+}
 
 /// The same at the image's own size times `scale` (rounded up), row by row, channels interleaved.
 /// \throws std::invalid_argument when scale is not a finite number > 0 or the size overflows.

@@ -5,92 +5,56 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <string>
+#include <vector>
 
-#include "freqsynth/basis/aligned.h"
 #include "freqsynth/basis/check.h"
 #include "freqsynth/basis/dct.h"
 #include "freqsynth/basis/float_bits.h"
-#include "freqsynth/basis/kernels.h"
-#include "freqsynth/image/axis_weights.h"
+#include "freqsynth/engine/shared_work.h"
+#include "freqsynth/image/block_pixels.h"
 #include "freqsynth/image/mean_filter.h"
 #include "freqsynth/image/reconstructor.h"
 
 namespace freqsynth {
 namespace detail {
 
-/// The factors that turn coefficients F into filtered amplitudes of a point function.
-inline ButterworthTable amplitude_factors(const FrequencyImage& image,
-                                          ButterworthSettings settings) {
-  const bool averages = image.meaning() == CoefficientMeaning::pixel_average;
-  std::array<float, max_terms> scale;
-  for (std::size_t i = 0; i < max_terms; ++i) {
-    double factor = amplitude_of_coefficient(i);
-    // Undo the average over a pixel, which the weights of the output apply anew.
-    if (averages) factor /= pixel_mean_of_term(i);
-    scale[i] = static_cast<float>(factor);
-  }
-  if (averages) settings.enabled = false;
-  return {settings, scale};
+/// Finished pixels are not filtered again.
+inline ButterworthSettings filter_of(const FrequencyImage& image, ButterworthSettings settings) {
+  if (image.meaning() == CoefficientMeaning::pixel_average) settings.enabled = false;
+  return settings;
 }
 
-/// The pixels that one block contributes to, in memory of their own.
-class BlockPixels {
- public:
-  void go_to(const AxisBlock& column, const AxisBlock& row) {
-    column_ = &column;
-    row_ = &row;
-    stride_ = padded(column.count);
-    weights_.assign(column.weights.begin(), column.weights.end());
-    pixels_.resize(row.count * stride_);
+inline std::vector<std::uint32_t> sample_counts(const FrequencyImage& image) {
+  std::vector<std::uint32_t> counts;
+  counts.reserve(image.blocks_x() * image.blocks_y());
+  for (std::size_t y = 0; y < image.blocks_y(); ++y) {
+    for (std::size_t x = 0; x < image.blocks_x(); ++x) counts.push_back(image.samples(x, y));
   }
+  return counts;
+}
 
-  void compute(std::span<const float, max_terms> coefficients,
-               const std::array<float, max_terms>& factors) {
-    for (std::size_t i = 0; i < max_terms; ++i) {
-      amplitudes_[zigzag_to_row_major[i]] = coefficients[i] * factors[i];
-    }
-    evaluate_separable(amplitudes_.data(), weights_.data(), stride_, stride_, row_->weights.data(),
-                       row_->count, pixels_.data(), stride_);
-  }
-
-  /// No block takes light away where there is none that is negative.
-  void clamp_negative() {
-    float* const pixels = pixels_.data();
-    for (std::size_t i = 0; i < row_->count * stride_; ++i) pixels[i] = std::max(pixels[i], 0.0f);
-  }
-
-  /// Writes the pixels, or adds them to those that an earlier block has begun.
-  void write(const PixelView& out, std::size_t channel) const {
-    float* const corner = out.data + static_cast<std::ptrdiff_t>(channel) * out.channel_stride +
-                          static_cast<std::ptrdiff_t>(row_->first) * out.row_stride +
-                          static_cast<std::ptrdiff_t>(column_->first) * out.pixel_stride;
-    const std::size_t count = column_->count;
-    const std::ptrdiff_t step = out.pixel_stride;
-    for (std::size_t r = 0; r < row_->count; ++r) {
-      float* const line = corner + static_cast<std::ptrdiff_t>(r) * out.row_stride;
-      const float* const source = pixels_.data() + r * stride_;
-      // Pixels that an earlier block has begun: first rows, or the first ones of a row.
-      const std::size_t begun = r < row_->begun ? count : std::min(column_->begun, count);
-      for (std::size_t c = 0; c < begun; ++c)
-        line[static_cast<std::ptrdiff_t>(c) * step] += source[c];
-      for (std::size_t c = begun; c < count; ++c) {
-        line[static_cast<std::ptrdiff_t>(c) * step] = source[c];
-      }
-    }
-  }
-
- private:
-  const AxisBlock* column_ = nullptr;
-  const AxisBlock* row_ = nullptr;
-  std::size_t stride_ = 0;
-  AlignedBlock amplitudes_;
-  AlignedVector<float> weights_, pixels_;
+/// Some rows of pixels of an output.
+struct PixelRows {
+  std::size_t first, last;  ///< the last one is beyond them
 };
 
+/// Calls make(rows) for parts of all rows, which belong to one thread each, so that what several
+/// blocks add to a pixel comes in one order.
+template <class Make>
+void share_rows(const ExecutorRef& executor, std::size_t height, std::size_t blocks_y,
+                const Make& make) {
+  const std::size_t parts = std::min(height, (blocks_y + 7) / 8);
+  share_pieces(executor, parts, [&](std::size_t part) {
+    make(PixelRows{part * height / parts, (part + 1) * height / parts});
+  });
+}
+
 /// In all channels, or in those that the image says are not negative.
-inline void clamp_negative_values(const PixelView& out, const FrequencyImage& image, bool all) {
-  for (std::size_t y = 0; y < out.height; ++y) {
+inline void clamp_negative_values(const PixelView& out, const FrequencyImage& image, bool all,
+                                  const PixelRows& rows) {
+  for (std::size_t y = rows.first; y < rows.last; ++y) {
     for (std::size_t x = 0; x < out.width; ++x) {
       for (std::size_t channel = 0; channel < image.channels(); ++channel) {
         if (!all && !image.non_negative(channel)) continue;
@@ -103,47 +67,79 @@ inline void clamp_negative_values(const PixelView& out, const FrequencyImage& im
   }
 }
 
-/// Pixels from the coefficients of the blocks that they lie in.
-inline void reconstruct_blocks(const FrequencyImage& image, const ReconstructionSettings& settings,
-                               bool wide, const PixelView& out) {
-  // The weights of an average are right for coefficients that are averages too, once undone.
-  const auto axis_of = [&](std::size_t size, std::size_t pixels, WeightOrder order) {
-    return make_axis(size, pixels, settings.pixel_filter, settings.filter_shape, order);
-  };
-  const auto columns = axis_of(image.width(), out.width, WeightOrder::by_frequency);
-  const auto rows = axis_of(image.height(), out.height, WeightOrder::by_pixel);
-  ButterworthTable factors = amplitude_factors(image, settings.butterworth);
+/// Rows of pixels from the coefficients of all blocks that contribute to them.
+inline void reconstruct_rows(const FrequencyImage& image, const ButterworthFilters& factors,
+                             const OutputAxes& axes, bool wide, const PixelRows& rows) {
   BlockPixels pixels;
-  for (std::size_t by = 0; by < rows.size(); ++by) {
-    for (std::size_t bx = 0; bx < columns.size(); ++bx) {
+  for (std::size_t by = 0; by < axes.rows.size(); ++by) {
+    const AxisBlock& row = axes.rows[by];
+    const std::size_t first = std::max(rows.first, row.first);
+    const std::size_t last = std::min(rows.last, row.first + row.count);
+    if (first >= last) continue;
+    for (std::size_t bx = 0; bx < axes.columns.size(); ++bx) {
       const auto& factor = factors.of(image.samples(bx, by));
-      pixels.go_to(columns[bx], rows[by]);
+      pixels.go_to(axes.columns[bx], row, first - row.first, last - row.first);
       for (std::size_t channel = 0; channel < image.channels(); ++channel) {
         pixels.compute(image.coefficients(bx, by, channel), factor);
         if (!wide && image.non_negative(channel)) pixels.clamp_negative();
-        pixels.write(out, channel);
+        pixels.write(axes.view, channel);
       }
     }
   }
 }
 
+/// Pixels from the coefficients of the blocks that they lie in.
+inline void reconstruct_blocks(const FrequencyImage& image, const ReconstructionSettings& settings,
+                               bool wide, const PixelView& out, const ExecutorRef& executor) {
+  // The weights of an average are right for coefficients that are averages too, once undone.
+  const OutputAxes axes(image.width(), image.height(), settings.pixel_filter, settings.filter_shape,
+                        out);
+  const ButterworthFilters factors(filter_of(image, settings.butterworth), sample_counts(image),
+                                   executor, amplitude_factors(image.meaning()));
+  share_rows(executor, out.height, image.blocks_y(),
+             [&](const PixelRows& rows) { reconstruct_rows(image, factors, axes, wide, rows); });
+}
+
 /// Finished pixels with a wide filter: the pixels, whose averages they are, of one channel after
 /// the other. Takes memory for the image at its own size.
 inline void filter_finished_pixels(const FrequencyImage& image,
-                                   const ReconstructionSettings& settings, const PixelView& out) {
+                                   const ReconstructionSettings& settings, const PixelView& out,
+                                   const ExecutorRef& executor) {
   const std::size_t width = image.width(), height = image.height(), channels = image.channels();
   std::vector<float> means(width * height * channels);
-  reconstruct(image, {.butterworth = settings.butterworth},
-              {means.data(), width, height, 1, static_cast<std::ptrdiff_t>(width),
-               static_cast<std::ptrdiff_t>(width * height)});
+  reconstruct_on(image, {.butterworth = settings.butterworth},
+                 {means.data(), width, height, 1, static_cast<std::ptrdiff_t>(width),
+                  static_cast<std::ptrdiff_t>(width * height)},
+                 executor);
   const FilterKernel kernel(settings.pixel_filter, settings.filter_shape);
   const MeanAxis columns = make_mean_axis(width, out.width, kernel);
   const MeanAxis rows = make_mean_axis(height, out.height, kernel);
-  for (std::size_t channel = 0; channel < channels; ++channel) {
+  share_pieces(executor, channels, [&](std::size_t channel) {
     PixelView one = out;
     one.data += static_cast<std::ptrdiff_t>(channel) * out.channel_stride;
     filter_means(means.data() + channel * width * height, width, columns, rows,
                  !kernel.has_negative(), one);
+  });
+}
+
+FREQSYNTH_INLINE void reconstruct_on(const FrequencyImage& image,
+                                     const ReconstructionSettings& settings, const PixelView& out,
+                                     const ExecutorRef& executor) {
+  settings.butterworth.validate();
+  settings.filter_shape.validate(settings.pixel_filter);
+  if (image.blocks_x() == 0 || image.blocks_y() == 0 || out.width == 0 || out.height == 0) return;
+  const PixelView view = out.resolved(image.channels());
+  // Where blocks share pixels, and weights may be negative, it is the sums that must not be.
+  const bool wide = is_wide(settings.pixel_filter, settings.filter_shape);
+  if (wide && image.meaning() == CoefficientMeaning::pixel_average) {
+    filter_finished_pixels(image, settings, view, executor);
+  } else {
+    reconstruct_blocks(image, settings, wide, view, executor);
+  }
+  if (settings.clamp_negative || wide) {
+    share_rows(executor, view.height, image.blocks_y(), [&](const PixelRows& rows) {
+      clamp_negative_values(view, image, settings.clamp_negative, rows);
+    });
   }
 }
 
@@ -151,20 +147,7 @@ inline void filter_finished_pixels(const FrequencyImage& image,
 
 FREQSYNTH_INLINE void reconstruct(const FrequencyImage& image,
                                   const ReconstructionSettings& settings, const PixelView& out) {
-  settings.butterworth.validate();
-  settings.filter_shape.validate(settings.pixel_filter);
-  if (image.blocks_x() == 0 || image.blocks_y() == 0 || out.width == 0 || out.height == 0) return;
-  const PixelView view = out.resolved(image.channels());
-  // Where blocks share pixels, and weights may be negative, it is the sums that must not be.
-  const bool wide = detail::is_wide(settings.pixel_filter, settings.filter_shape);
-  if (wide && image.meaning() == CoefficientMeaning::pixel_average) {
-    detail::filter_finished_pixels(image, settings, view);
-  } else {
-    detail::reconstruct_blocks(image, settings, wide, view);
-  }
-  if (settings.clamp_negative || wide) {
-    detail::clamp_negative_values(view, image, settings.clamp_negative);
-  }
+  detail::reconstruct_on(image, settings, out, {});
 }
 
 FREQSYNTH_INLINE std::size_t scaled_size(std::size_t size, double scale) {
@@ -206,13 +189,14 @@ FREQSYNTH_INLINE void evaluate(const FrequencyImage& image, const ButterworthSet
   };
   const std::size_t bx = block_of(x, image.blocks_x());
   const std::size_t by = block_of(y, image.blocks_y());
-  detail::ButterworthTable factors = detail::amplitude_factors(image, butterworth);
+  auto factor = butterworth_factors(detail::filter_of(image, butterworth), image.samples(bx, by));
+  const auto scale = detail::amplitude_factors(image.meaning());
+  for (std::size_t i = 0; i < max_terms; ++i) factor[i] *= scale[i];
   std::array<double, max_terms> terms;
   const auto place = [](double at, std::size_t block, std::size_t length) {
     return (at - static_cast<double>(block * block_size)) / static_cast<double>(length);
   };
   evaluate_terms(place(x, bx, image.block_width(bx)), place(y, by, image.block_height(by)), terms);
-  const auto& factor = factors.of(image.samples(bx, by));
   for (std::size_t channel = 0; channel < image.channels(); ++channel) {
     const auto coefficients = image.coefficients(bx, by, channel);
     double sum = 0;

@@ -38,6 +38,8 @@ class FREQSYNTH_API SharedBorder {
  private:
   static constexpr std::size_t sides = 4;  // left, right, top, bottom
   using Line = std::array<float, block_size>;
+  // So many samples do not miss what reaches farther into the block.
+  static constexpr std::uint32_t enough = 24;
 
   static std::array<bool, sides> touched(const SequencePosition& position) {
     return {position.s == 0, position.s == 1, position.t == 0, position.t == 1};

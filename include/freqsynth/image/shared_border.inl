@@ -29,8 +29,6 @@ FREQSYNTH_INLINE void SharedBorder::add(const SequencePosition& position,
 FREQSYNTH_INLINE std::optional<SharedBorder::Line> SharedBorder::beyond(const BlockFit& fit,
                                                                         const BlocksMeans& means,
                                                                         std::size_t side) const {
-  // So many samples do not miss what reaches farther into the block.
-  constexpr std::uint32_t enough = 24;
   constexpr std::array<std::size_t, sides> neighbours{3, 5, 1, 7};
   const float* const own = means[4];
   const float* const other = means[neighbours[side]];
@@ -73,13 +71,16 @@ FREQSYNTH_INLINE std::optional<SharedBorder::Line> SharedBorder::beyond(const Bl
 FREQSYNTH_INLINE std::vector<Gap> SharedBorder::foreign(const BlockFit& fit,
                                                         const BlocksMeans& means,
                                                         const InverseList& list) const {
+  std::vector<Gap> gaps;
+  if (std::all_of(within_.begin(), within_.end(), [](auto some) { return some < enough; })) {
+    return gaps;
+  }
   std::array<std::optional<Line>, sides> lines;
   bool any = false;
   for (std::size_t side = 0; side < sides; ++side) {
     lines[side] = beyond(fit, means, side);
     any = any || lines[side];
   }
-  std::vector<Gap> gaps;
   if (!any) return gaps;
   for (std::uint32_t n = 0; n < samples_; ++n) {
     const SequencePosition& position = list.position(n);

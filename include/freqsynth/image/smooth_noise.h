@@ -13,8 +13,10 @@
 
 #include <cstddef>
 #include <span>
+#include <type_traits>
 
 #include "freqsynth/basis/config.h"
+#include "freqsynth/engine/executor.h"
 #include "freqsynth/image/noisy_picture.h"
 
 namespace freqsynth {
@@ -29,6 +31,21 @@ namespace freqsynth {
 ///         many planes of sums and variances as of pixels, or a channel does not exist.
 FREQSYNTH_API void smooth_noise(NoisyPicture& picture, std::span<const std::size_t> channels,
                                 std::span<const std::size_t> features);
+
+namespace detail {
+FREQSYNTH_API void smooth_noise_on(NoisyPicture& picture, std::span<const std::size_t> channels,
+                                   std::span<const std::size_t> features,
+                                   const ExecutorRef& executor);
+}  // namespace detail
+
+/// The same on an executor's threads; the result does not depend on it.
+/// \throws what the executor throws, too; the picture is of no use then.
+template <class E>
+requires Executor<std::remove_reference_t<E>>
+void smooth_noise(NoisyPicture& picture, std::span<const std::size_t> channels,
+                  std::span<const std::size_t> features, E&& executor) {
+  detail::smooth_noise_on(picture, channels, features, detail::ExecutorRef(executor));
+}
 
 }  // namespace freqsynth
 

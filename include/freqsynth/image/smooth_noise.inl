@@ -128,13 +128,12 @@ inline std::vector<GuidedRegression::Guide> feature_guides(const NoisyPicture& p
   return guides;
 }
 
-}  // namespace detail
-
-FREQSYNTH_INLINE void smooth_noise(NoisyPicture& picture, std::span<const std::size_t> channels,
-                                   std::span<const std::size_t> features) {
-  using detail::GuidedRegression;
-  detail::check_picture(picture, channels);
-  detail::check_picture(picture, features);
+FREQSYNTH_INLINE void smooth_noise_on(NoisyPicture& picture, std::span<const std::size_t> channels,
+                                      std::span<const std::size_t> features,
+                                      const ExecutorRef& executor) {
+  static_cast<void>(executor);
+  check_picture(picture, channels);
+  check_picture(picture, features);
   if (picture.weights.empty() || channels.empty()) return;
 
   // In units of the variance of a pixel's mean: ridges, and what steps on borders may be.
@@ -143,8 +142,8 @@ FREQSYNTH_INLINE void smooth_noise(NoisyPicture& picture, std::span<const std::s
   };
   constexpr Pass passes[] = {{3, 1}, {0.6, 0.3}};
   constexpr double last_border = 0.1;
-  const auto close_borders = [&](std::size_t channel, double variance) {
-    detail::close_borders(picture, picture.sums[channel], variance, picture.pixels[channel]);
+  const auto close_all = [&](std::size_t channel, double variance) {
+    close_borders(picture, picture.sums[channel], variance, picture.pixels[channel]);
   };
 
   // Pixels of many samples follow them closely, and leave nothing over that tells of noise. What a
@@ -159,13 +158,12 @@ FREQSYNTH_INLINE void smooth_noise(NoisyPicture& picture, std::span<const std::s
 
   std::vector<const float*> sums;
   for (const std::size_t channel : channels) sums.push_back(picture.sums[channel].data());
-  for (const std::size_t channel : features) close_borders(channel, passes[0].border);
-  std::vector<detail::FeatureSamples> feature_samples;
-  std::vector<GuidedRegression::Guide> guides =
-      detail::feature_guides(picture, features, feature_samples);
+  for (const std::size_t channel : features) close_all(channel, passes[0].border);
+  std::vector<FeatureSamples> feature_samples;
+  std::vector<GuidedRegression::Guide> guides = feature_guides(picture, features, feature_samples);
   for (const Pass& pass : passes) {
     for (std::size_t t = 0; t < channels.size(); ++t) {
-      close_borders(channels[t], pass.border);
+      close_all(channels[t], pass.border);
       const float* pilot = picture.pixels[channels[t]].data();
       guides.push_back({pilot, pilot, 0, pass.ridge, variances[t].data(), t});
     }
@@ -174,7 +172,7 @@ FREQSYNTH_INLINE void smooth_noise(NoisyPicture& picture, std::span<const std::s
     for (std::size_t t = 0; t < channels.size(); ++t) {
       const NoisyPicture::Plane& pilot = picture.pixels[channels[t]];
       regression.predict(t, predictions.emplace_back(pilot));
-      detail::hold_within(picture, pilot, predictions.back());
+      hold_within(picture, pilot, predictions.back());
     }
     for (std::size_t t = 0; t < channels.size(); ++t) {
       picture.pixels[channels[t]] = std::move(predictions[t]);
@@ -182,9 +180,16 @@ FREQSYNTH_INLINE void smooth_noise(NoisyPicture& picture, std::span<const std::s
     guides.clear();
   }
   for (const std::size_t channel : channels) {
-    detail::pool_levels(picture, picture.sums[channel], picture.pixels[channel]);
-    close_borders(channel, last_border);
+    pool_levels(picture, picture.sums[channel], picture.pixels[channel]);
+    close_all(channel, last_border);
   }
+}
+
+}  // namespace detail
+
+FREQSYNTH_INLINE void smooth_noise(NoisyPicture& picture, std::span<const std::size_t> channels,
+                                   std::span<const std::size_t> features) {
+  detail::smooth_noise_on(picture, channels, features, {});
 }
 
 }  // namespace freqsynth
