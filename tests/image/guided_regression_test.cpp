@@ -154,7 +154,7 @@ TEST(GuidedRegression, IsTheWeightedLeastSquaresOfEachCell) {
     const GuidedRegression regression(picture, window, guides,
                                       {picture.sums[0].data(), picture.sums[1].data()});
     Plane found(24 * 16);
-    regression.predict(0, found);
+    regression.predict(std::array{std::span<float>(found)});
     const auto cells_x = 24 / window.cell, cells_y = 16 / window.cell;
     for (std::size_t y = 0; y < 16; ++y) {
       for (std::size_t x = 0; x < 24; ++x) {
@@ -191,7 +191,7 @@ TEST(GuidedRegression, IsExactOnTargetsThatAreLinearInAGuide) {
   const GuidedRegression regression(picture, {2, 2}, {{at_samples.data(), at_pixels.data(), 0}},
                                     {picture.sums[0].data()});
   Plane found(32 * 32);
-  regression.predict(0, found);
+  regression.predict(std::array{std::span<float>(found)});
   for (std::size_t i = 0; i < found.size(); ++i) ASSERT_NEAR(found[i], 3 * at_pixels[i] - 1, 1e-4f);
 }
 
@@ -203,7 +203,7 @@ TEST(GuidedRegression, LeavesPixelsAloneThatNoSampleIsNear) {
   picture.sums[0][3] = 7;
   const GuidedRegression regression(picture, {2, 2}, {}, {picture.sums[0].data()});
   Plane found(64 * 8, -1.0f);
-  regression.predict(0, found);
+  regression.predict(std::array{std::span<float>(found)});
   EXPECT_FLOAT_EQ(found[0], 7);
   EXPECT_EQ(found[40], -1);
 }

@@ -101,6 +101,18 @@ struct alignas(64) PaddedBlock {
   float values[first + block_size * stride];  ///< in each row pixels 0 .. 7, and on both sides one
 };
 
+/// sums(i) += factor * values(i), anywhere in memory.
+using AddScaled = void(const double* values, double factor, std::size_t count, double* sums);
+
+/// Solves four symmetric positive definite systems at once by Cholesky's factors, in place. Each
+/// number is there four times, side by side, once for each system.
+/// \param matrix    n x n numbers, of which the lower triangle counts; aligned to 32 bytes, like all
+/// \param right     n rows of `sides` numbers: the right sides, which become the solutions
+/// \param definite  receives 1 for each system that is positive definite, 0 for others, whose
+///                  solutions are none
+using SolveFour = void(double* matrix, double* right, std::size_t n, std::size_t sides,
+                       double* definite);
+
 /// Eq. 1: pixels, row by row, to coefficients, row-major (v, u), in double.
 /// \param cosines  cos(pi u (x + 1/2) / 8), row-major (x, u), aligned to 64 bytes like `scales`
 /// \param scales   factor of each coefficient, row-major (v, u)
@@ -150,6 +162,8 @@ struct Kernels {
   Multiply* multiply;
   ResidualMeans* residual_means;
   EvaluateSeparable* evaluate_separable;
+  AddScaled* add_scaled;
+  SolveFour* solve_four;
   ForwardTransform* forward_transform;
   ShrinkTerms* shrink_terms;
   AddMeans* add_means;
@@ -174,6 +188,8 @@ FREQSYNTH_API AddOuterProduct add_outer_product;
 FREQSYNTH_API Multiply multiply;
 FREQSYNTH_API ResidualMeans residual_means;
 FREQSYNTH_API EvaluateSeparable evaluate_separable;
+FREQSYNTH_API AddScaled add_scaled;
+FREQSYNTH_API SolveFour solve_four;
 FREQSYNTH_API ForwardTransform forward_transform;
 FREQSYNTH_API ShrinkTerms shrink_terms;
 FREQSYNTH_API AddMeans add_means;

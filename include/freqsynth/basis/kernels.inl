@@ -81,6 +81,8 @@ inline constexpr Kernels plain_kernels = {
     &plain::multiply,
     &plain::residual_means,
     &plain::evaluate_separable,
+    &plain::add_scaled,
+    &plain::solve_four,
     &plain::forward_transform,
     &plain::shrink_terms,
     &plain::add_means,
@@ -101,6 +103,8 @@ inline constexpr Kernels avx2_kernels = {
     &avx2::multiply,
     &avx2::residual_means,
     &avx2::evaluate_separable,
+    &avx2::add_scaled,
+    &avx2::solve_four,
     &avx2::forward_transform,
     &avx2::shrink_terms,
     &avx2::add_means,
@@ -121,6 +125,8 @@ inline constexpr Kernels avx512_kernels = [] {
   kernels.rank_one_update = &avx512::rank_one_update;
   kernels.residual_means = &avx512::residual_means;
   kernels.evaluate_separable = &avx512::evaluate_separable;
+  kernels.add_scaled = &avx512::add_scaled;
+  kernels.solve_four = &avx512::solve_four;
   kernels.forward_transform = &avx512::forward_transform;
   kernels.shrink_terms = &avx512::shrink_terms;
   kernels.add_means = &avx512::add_means;
@@ -178,6 +184,8 @@ inline constexpr Kernels undecided_kernels = {
     &Undecided<&Kernels::multiply>::call,
     &Undecided<&Kernels::residual_means>::call,
     &Undecided<&Kernels::evaluate_separable>::call,
+    &Undecided<&Kernels::add_scaled>::call,
+    &Undecided<&Kernels::solve_four>::call,
     &Undecided<&Kernels::forward_transform>::call,
     &Undecided<&Kernels::shrink_terms>::call,
     &Undecided<&Kernels::add_means>::call,
@@ -235,6 +243,16 @@ FREQSYNTH_INLINE void evaluate_separable(const float* amplitudes, const float* w
                                          const float* wy, std::size_t rows, float* out,
                                          std::size_t out_stride) {
   kernels().evaluate_separable(amplitudes, wx, wx_stride, columns, wy, rows, out, out_stride);
+}
+
+FREQSYNTH_INLINE void add_scaled(const double* values, double factor, std::size_t count,
+                                 double* sums) {
+  kernels().add_scaled(values, factor, count, sums);
+}
+
+FREQSYNTH_INLINE void solve_four(double* matrix, double* right, std::size_t n, std::size_t sides,
+                                 double* definite) {
+  kernels().solve_four(matrix, right, n, sides, definite);
 }
 
 FREQSYNTH_INLINE void forward_transform(const float* pixels, const double* cosines,

@@ -67,6 +67,67 @@ void evaluate_separable(const float* amplitudes, const float* wx, std::size_t wx
 }
 
 FREQSYNTH_KERNEL
+void add_scaled(const double* values, double factor, std::size_t count, double* sums) {
+  FREQSYNTH_KERNEL_BEGIN
+  std::size_t i = 0;
+  for (; i + 8 <= count; i += 8) {
+    (Double8::load_unaligned(sums + i) + factor * Double8::load_unaligned(values + i))
+        .store_unaligned(sums + i);
+  }
+  for (; i < count; ++i) sums[i] += factor * values[i];
+}
+
+FREQSYNTH_KERNEL
+void solve_four(double* matrix, double* right, std::size_t n, std::size_t sides, double* definite) {
+  FREQSYNTH_KERNEL_BEGIN
+  constexpr std::size_t lanes = 4;
+  const Double4 one = all_lanes<Double4>(1.0);
+  Double4 all = one;
+  for (std::size_t j = 0; j < n; ++j) {
+    double* row = matrix + j * n * lanes;
+    Double4 pivot = Double4::load(row + j * lanes);
+    for (std::size_t k = 0; k < j; ++k) {
+      const Double4 factor = Double4::load(row + k * lanes);
+      pivot = pivot - factor * factor;
+    }
+    all = if_less(Double4{}, pivot, all, Double4{});
+    double* diagonal = row + j * lanes;
+    if_less(Double4{}, pivot, pivot, one).store(diagonal);
+    for (std::size_t i = 0; i < lanes; ++i) diagonal[i] = __builtin_sqrt(diagonal[i]);
+    const Double4 root = Double4::load(diagonal);
+    for (std::size_t i = j + 1; i < n; ++i) {
+      double* lower = matrix + i * n * lanes;
+      Double4 value = Double4::load(lower + j * lanes);
+      for (std::size_t k = 0; k < j; ++k) {
+        value = value - Double4::load(lower + k * lanes) * Double4::load(row + k * lanes);
+      }
+      quotient(value, root).store(lower + j * lanes);
+    }
+  }
+  for (std::size_t c = 0; c < sides; ++c) {
+    double* side = right + c * lanes;
+    const std::size_t next = sides * lanes;
+    for (std::size_t i = 0; i < n; ++i) {
+      const double* row = matrix + i * n * lanes;
+      Double4 value = Double4::load(side + i * next);
+      for (std::size_t k = 0; k < i; ++k) {
+        value = value - Double4::load(row + k * lanes) * Double4::load(side + k * next);
+      }
+      quotient(value, Double4::load(row + i * lanes)).store(side + i * next);
+    }
+    for (std::size_t i = n; i-- > 0;) {
+      Double4 value = Double4::load(side + i * next);
+      for (std::size_t k = i + 1; k < n; ++k) {
+        value =
+            value - Double4::load(matrix + (k * n + i) * lanes) * Double4::load(side + k * next);
+      }
+      quotient(value, Double4::load(matrix + (i * n + i) * lanes)).store(side + i * next);
+    }
+  }
+  all.store(definite);
+}
+
+FREQSYNTH_KERNEL
 void forward_transform(const float* pixels, const double* cosines, const double* scales,
                        float* out) {
   FREQSYNTH_KERNEL_BEGIN

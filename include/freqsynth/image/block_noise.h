@@ -9,6 +9,7 @@
 #include <span>
 
 #include "freqsynth/basis/config.h"
+#include "freqsynth/engine/executor.h"
 #include "freqsynth/image/noisy_picture.h"
 
 namespace freqsynth {
@@ -21,7 +22,8 @@ namespace detail {
 /// \param sums      of the channel's samples in each pixel
 /// \param variance  v, in units of the variance of a pixel's mean
 FREQSYNTH_API void close_borders(const NoisyPicture& picture, std::span<const float> sums,
-                                 double variance, std::span<float> pixels);
+                                 double variance, std::span<float> pixels,
+                                 const ExecutorRef& executor = {});
 
 /// Draws the levels of blocks to that of all samples around where they differ no more than the
 /// noise that is usual there would make them (empirical Bayes). A block that was sampled until it
@@ -30,7 +32,7 @@ FREQSYNTH_API void close_borders(const NoisyPicture& picture, std::span<const fl
 /// \param pixels  of one channel, changed in place
 /// \param sums    of the channel's samples in each pixel
 FREQSYNTH_API void pool_levels(const NoisyPicture& picture, std::span<const float> sums,
-                               std::span<float> pixels);
+                               std::span<float> pixels, const ExecutorRef& executor = {});
 
 }  // namespace detail
 }  // namespace freqsynth

@@ -10,12 +10,16 @@
 /// blocks, and keeps the mean of the samples.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <span>
 #include <vector>
 
+#include "freqsynth/basis/aligned.h"
 #include "freqsynth/basis/config.h"
+#include "freqsynth/engine/executor.h"
+#include "freqsynth/image/linear_blend.h"
 #include "freqsynth/image/noisy_picture.h"
 
 namespace freqsynth {
@@ -47,10 +51,11 @@ class FREQSYNTH_API GuidedRegression {
 
   /// \param sums  of each target, those of the picture's samples in each pixel
   GuidedRegression(const NoisyPicture& picture, const Window& window, std::vector<Guide> guides,
-                   std::vector<const float*> sums);
+                   std::vector<const float*> sums, const ExecutorRef& executor = {});
 
-  /// The prediction of a target for each pixel; where no cell around has a sample, nothing changes.
-  void predict(std::size_t target, std::span<float> pixels) const;
+  /// The predictions of all targets for each pixel; where no cell around has a sample, nothing
+  /// changes.
+  void predict(std::span<const std::span<float>> pixels, const ExecutorRef& executor = {}) const;
 
  private:
   // A cell's sums: weight, pixels with samples, of each target its sum, of each guide the variance
@@ -64,16 +69,29 @@ class FREQSYNTH_API GuidedRegression {
     return first_pair() + terms_ * (terms_ + 1) / 2;
   }
 
+  /// Memory that fits are made in.
+  struct Work {
+    std::vector<std::vector<double>> rows;  // sums of cells, by turns
+    std::vector<double> column, window;
+    // Of four cells side by side: sums, their systems, pixels of the window, and which they are.
+    AlignedVector<double> sums, matrix, right;
+    AlignedArray<double, 4> pixels, definite;
+    std::array<std::size_t, 4> cells;
+    std::size_t count = 0;
+  };
+
   void collect(std::size_t cell_y, std::span<double> row) const;
-  void fit_all();
-  void fit_cell(std::span<const double> sums, double windows, std::span<float> out);
+  void fit_rows(std::size_t first, std::size_t last, Work& work);
+  void fit_row(std::size_t y, Work& work);
+  void fit_cells(std::size_t y, Work& work);
+  void predict_row(std::size_t y, std::span<const std::span<float>> pixels) const;
 
   const NoisyPicture& picture_;
   Window window_;
   std::vector<Guide> guides_;
   std::vector<const float*> sums_;
   std::size_t cells_x_, cells_y_, terms_, moments_, slopes_;
-  std::vector<double> matrix_, right_;
+  std::vector<LinearBlend<float>> columns_, lines_;  // of pixels
   // [cell][target]: value at the cell's centre where guides are 0, and the slopes; not a number
   // without samples.
   std::vector<float> fits_;

@@ -2,45 +2,17 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
 #include "freqsynth/basis/float_bits.h"
+#include "freqsynth/basis/kernels.h"
+#include "freqsynth/engine/shared_work.h"
 #include "freqsynth/image/guided_regression.h"
 
 namespace freqsynth {
 namespace detail {
-
-/// Solves a symmetric positive definite system in place, by Cholesky's factors. `matrix` is n x n,
-/// of which the lower triangle counts; `right` has n rows, one column per right side.
-/// \return false when the matrix is not positive definite
-inline bool solve_in_place(std::span<double> matrix, std::span<double> right, std::size_t n) {
-  const std::size_t sides = right.size() / n;
-  for (std::size_t j = 0; j < n; ++j) {
-    double* row = &matrix[j * n];
-    for (std::size_t k = 0; k < j; ++k) row[j] -= row[k] * row[k];
-    if (!(row[j] > 0)) return false;
-    row[j] = std::sqrt(row[j]);
-    for (std::size_t i = j + 1; i < n; ++i) {
-      double* lower = &matrix[i * n];
-      for (std::size_t k = 0; k < j; ++k) lower[j] -= lower[k] * row[k];
-      lower[j] /= row[j];
-    }
-  }
-  for (std::size_t c = 0; c < sides; ++c) {
-    for (std::size_t i = 0; i < n; ++i) {
-      double& value = right[i * sides + c];
-      for (std::size_t k = 0; k < i; ++k) value -= matrix[i * n + k] * right[k * sides + c];
-      value /= matrix[i * n + i];
-    }
-    for (std::size_t i = n; i-- > 0;) {
-      double& value = right[i * sides + c];
-      for (std::size_t k = i + 1; k < n; ++k) value -= matrix[k * n + i] * right[k * sides + c];
-      value /= matrix[i * n + i];
-    }
-  }
-  return true;
-}
 
 /// Positions are in cells from the middle of the picture: here of a cell's middle,
 inline double middle_of_cell(std::size_t cell, std::size_t cells) {
@@ -54,7 +26,8 @@ inline double middle_of_pixel(std::size_t pixel, std::size_t pixels, std::size_t
 
 FREQSYNTH_INLINE GuidedRegression::GuidedRegression(const NoisyPicture& picture,
                                                     const Window& window, std::vector<Guide> guides,
-                                                    std::vector<const float*> sums)
+                                                    std::vector<const float*> sums,
+                                                    const ExecutorRef& executor)
     : picture_(picture),
       window_(window),
       guides_(std::move(guides)),
@@ -65,7 +38,22 @@ FREQSYNTH_INLINE GuidedRegression::GuidedRegression(const NoisyPicture& picture,
       moments_(2 + sums_.size() + guides_.size() + terms_ + terms_ * (terms_ + 1) / 2 +
                terms_ * sums_.size()),
       slopes_(terms_ + 1) {
-  fit_all();
+  if (cells_x_ * cells_y_ == 0) return;
+  const auto blends = [&](std::size_t pixels, std::size_t cells) {
+    return blends_along(pixels, window_.cell, cells, static_cast<float>(cells));
+  };
+  columns_ = blends(picture.width, cells_x_);
+  lines_ = blends(picture.height, cells_y_);
+  fits_.assign(cells_x_ * cells_y_ * sums_.size() * slopes_,
+               std::numeric_limits<float>::quiet_NaN());
+  // Each part sums up the cells above and below it anew.
+  constexpr std::size_t part = 32;
+  share_work(executor, (cells_y_ + part - 1) / part, [&](WorkPieces& parts) {
+    Work work;
+    for (std::size_t i; parts.take(i);) {
+      fit_rows(i * part, std::min((i + 1) * part, cells_y_), work);
+    }
+  });
 }
 
 FREQSYNTH_INLINE void GuidedRegression::collect(std::size_t cell_y, std::span<double> row) const {
@@ -110,50 +98,87 @@ FREQSYNTH_INLINE void GuidedRegression::collect(std::size_t cell_y, std::span<do
   }
 }
 
-/// \param windows  pixels of the window, by the weights of its cells
-FREQSYNTH_INLINE void GuidedRegression::fit_cell(std::span<const double> sums, double windows,
-                                                 std::span<float> out) {
-  const double weight = sums[0];
+/// Fits the up to four cells of a row that have been summed up.
+FREQSYNTH_INLINE void GuidedRegression::fit_cells(std::size_t y, Work& work) {
+  constexpr std::size_t lanes = 4;
   const std::size_t targets = sums_.size();
-  const double* means = &sums[first_term()];
-  const double* pairs = &sums[first_pair()];
-  const double* products = &sums[first_product()];
+  const auto sum = [&](std::size_t moment) { return &work.sums[moment * lanes]; };
+  const double* const weight = sum(0);
+  const double* const sampled = sum(1);
+  const double* pairs = sum(first_pair());
+  const double* products = sum(first_product());
+  const auto means = [&](std::size_t i) { return sum(first_term() + i); };
   for (std::size_t i = 0; i < terms_; ++i) {
-    for (std::size_t j = 0; j <= i; ++j) {
-      matrix_[i * terms_ + j] = *pairs++ / weight - means[i] / weight * (means[j] / weight);
+    for (std::size_t j = 0; j <= i; ++j, pairs += lanes) {
+      double* entry = &work.matrix[(i * terms_ + j) * lanes];
+      const double *a = means(i), *b = means(j);
+      for (std::size_t k = 0; k < lanes; ++k) {
+        entry[k] = pairs[k] / weight[k] - a[k] / weight[k] * (b[k] / weight[k]);
+      }
     }
-    double ridge = 0.02;  // of positions, in cells
-    if (i < guides_.size()) {
-      const double noise = sums[first_variance() + i] / sums[1];
-      ridge = guides_[i].ridge + guides_[i].noise_ridge * noise * windows / weight;
+    double* variance = &work.matrix[(i * terms_ + i) * lanes];
+    for (std::size_t k = 0; k < lanes; ++k) {
+      double ridge = 0.02;  // of positions, in cells
+      if (i < guides_.size()) {
+        const double noise = sum(first_variance() + i)[k] / sampled[k];
+        ridge = guides_[i].ridge + guides_[i].noise_ridge * noise * work.pixels[k] / weight[k];
+      }
+      variance[k] = std::max(variance[k], 0.0) + ridge;
+      // Guides that are constant, without noise.
+      if (!(variance[k] > 0)) variance[k] = 1;
     }
-    double& variance = matrix_[i * terms_ + i];
-    variance = std::max(variance, 0.0) + ridge;
-    // Guides that are constant, without noise.
-    if (!(variance > 0)) variance = 1;
-    for (std::size_t t = 0; t < targets; ++t) {
-      right_[i * targets + t] =
-          *products++ / weight - means[i] / weight * (sums[first_target() + t] / weight);
+    for (std::size_t t = 0; t < targets; ++t, products += lanes) {
+      double* side = &work.right[(i * targets + t) * lanes];
+      const double *a = means(i), *b = sum(first_target() + t);
+      for (std::size_t k = 0; k < lanes; ++k) {
+        side[k] = products[k] / weight[k] - a[k] / weight[k] * (b[k] / weight[k]);
+      }
     }
   }
-  if (!solve_in_place(matrix_, right_, terms_)) std::fill(right_.begin(), right_.end(), 0.0);
-  for (std::size_t t = 0; t < targets; ++t) {
-    double level = sums[first_target() + t] / weight;
-    for (std::size_t i = 0; i < terms_; ++i) {
-      const double slope = right_[i * targets + t];
-      level -= slope * means[i] / weight;
-      out[t * slopes_ + i + 1] = static_cast<float>(slope);
+  solve_four(work.matrix.data(), work.right.data(), terms_, targets, work.definite.data());
+  for (std::size_t k = 0; k < work.count; ++k) {
+    const std::size_t x = work.cells[k];
+    // Positions are to count from the cell's centre.
+    const double centre_x = middle_of_cell(x, cells_x_), centre_y = middle_of_cell(y, cells_y_);
+    for (std::size_t t = 0; t < targets; ++t) {
+      float* fit = &fits_[((y * cells_x_ + x) * targets + t) * slopes_];
+      double level = sum(first_target() + t)[k] / weight[k];
+      for (std::size_t i = 0; i < terms_; ++i) {
+        const double slope = work.definite[k] > 0 ? work.right[(i * targets + t) * lanes + k] : 0;
+        level -= slope * means(i)[k] / weight[k];
+        fit[i + 1] = static_cast<float>(slope);
+      }
+      fit[0] = static_cast<float>(level);
+      fit[0] += static_cast<float>(static_cast<double>(fit[slopes_ - 2]) * centre_x +
+                                   static_cast<double>(fit[slopes_ - 1]) * centre_y);
     }
-    out[t * slopes_] = static_cast<float>(level);
+  }
+  work.count = 0;
+}
+
+FREQSYNTH_INLINE void GuidedRegression::fit_rows(std::size_t first, std::size_t last, Work& work) {
+  const std::size_t reach = window_.reach;
+  work.rows.resize(2 * reach + 1);
+  for (auto& row : work.rows) row.resize(cells_x_ * moments_);
+  work.column.resize(cells_x_ * moments_);
+  work.window.resize(moments_);
+  constexpr std::size_t lanes = 4;
+  work.sums.assign(moments_ * lanes, 1.0);
+  work.matrix.resize(terms_ * terms_ * lanes);
+  work.right.resize(terms_ * sums_.size() * lanes);
+  work.pixels.fill(1);
+  std::size_t collected = first - std::min(first, reach);
+  for (std::size_t y = first; y < last; ++y) {
+    for (; collected < std::min(y + reach + 1, cells_y_); ++collected) {
+      collect(collected, work.rows[collected % work.rows.size()]);
+    }
+    fit_row(y, work);
   }
 }
 
-FREQSYNTH_INLINE void GuidedRegression::fit_all() {
+FREQSYNTH_INLINE void GuidedRegression::fit_row(std::size_t y, Work& work) {
+  constexpr std::size_t lanes = 4;
   const std::size_t reach = window_.reach;
-  const std::size_t targets = sums_.size();
-  matrix_.resize(terms_ * terms_);
-  right_.resize(terms_ * targets);
-  fits_.assign(cells_x_ * cells_y_ * targets * slopes_, std::numeric_limits<float>::quiet_NaN());
   // The weight of a cell falls linearly with the distance along each axis.
   const auto share = [=](std::size_t a, std::size_t b) {
     return static_cast<double>(reach + 1 - (a > b ? a - b : b - a));
@@ -161,85 +186,85 @@ FREQSYNTH_INLINE void GuidedRegression::fit_all() {
   const auto around = [=](std::size_t cell, std::size_t cells) {
     return std::pair{cell - std::min(cell, reach), std::min(cell + reach + 1, cells)};
   };
-  std::vector<std::vector<double>> rows(2 * reach + 1);  // of cells, by turns
-  for (auto& row : rows) row.resize(cells_x_ * moments_);
-  std::vector<double> column(cells_x_ * moments_), window(moments_);
-  std::size_t collected = 0;
-  for (std::size_t y = 0; y < cells_y_; ++y) {
-    const auto [top, bottom] = around(y, cells_y_);
-    for (; collected < bottom; ++collected) collect(collected, rows[collected % rows.size()]);
-    std::fill(column.begin(), column.end(), 0.0);
-    double shares_y = 0;
-    for (std::size_t row = top; row < bottom; ++row) {
-      const double weight = share(row, y);
-      const std::vector<double>& sums = rows[row % rows.size()];
-      for (std::size_t i = 0; i < column.size(); ++i) column[i] += weight * sums[i];
-      shares_y += weight;
-    }
-    for (std::size_t x = 0; x < cells_x_; ++x) {
-      const auto [left, right] = around(x, cells_x_);
-      std::fill(window.begin(), window.end(), 0.0);
-      double shares_x = 0;
-      for (std::size_t cell = left; cell < right; ++cell) {
-        const double weight = share(cell, x);
-        const double* sums = &column[cell * moments_];
-        for (std::size_t i = 0; i < moments_; ++i) window[i] += weight * sums[i];
-        shares_x += weight;
-      }
-      if (!(window[0] > 1e-3)) continue;
-      const double pixels = static_cast<double>(window_.cell * window_.cell) * shares_x * shares_y;
-      const std::span out(&fits_[(y * cells_x_ + x) * targets * slopes_], targets * slopes_);
-      fit_cell(window, pixels, out);
-      // From here on positions count from the cell's centre.
-      const double centre_x = middle_of_cell(x, cells_x_), centre_y = middle_of_cell(y, cells_y_);
-      for (std::size_t t = 0; t < targets; ++t) {
-        float* fit = &out[t * slopes_];
-        fit[0] += static_cast<float>(static_cast<double>(fit[slopes_ - 2]) * centre_x +
-                                     static_cast<double>(fit[slopes_ - 1]) * centre_y);
-      }
-    }
+  const auto [top, bottom] = around(y, cells_y_);
+  std::fill(work.column.begin(), work.column.end(), 0.0);
+  double shares_y = 0;
+  for (std::size_t row = top; row < bottom; ++row) {
+    const double weight = share(row, y);
+    add_scaled(work.rows[row % work.rows.size()].data(), weight, work.column.size(),
+               work.column.data());
+    shares_y += weight;
   }
+  for (std::size_t x = 0; x < cells_x_; ++x) {
+    const auto [left, right] = around(x, cells_x_);
+    std::fill(work.window.begin(), work.window.end(), 0.0);
+    double shares_x = 0;
+    for (std::size_t cell = left; cell < right; ++cell) {
+      const double weight = share(cell, x);
+      add_scaled(&work.column[cell * moments_], weight, moments_, work.window.data());
+      shares_x += weight;
+    }
+    if (!(work.window[0] > 1e-3)) continue;
+    const std::size_t lane = work.count++;
+    for (std::size_t i = 0; i < moments_; ++i) work.sums[i * lanes + lane] = work.window[i];
+    work.pixels[lane] = static_cast<double>(window_.cell * window_.cell) * shares_x * shares_y;
+    work.cells[lane] = x;
+    if (work.count == lanes) fit_cells(y, work);
+  }
+  if (work.count > 0) fit_cells(y, work);
 }
 
-FREQSYNTH_INLINE void GuidedRegression::predict(std::size_t target, std::span<float> pixels) const {
-  // The two cells along an axis whose centres are nearest, and the second one's share.
-  struct Beside {
-    std::size_t first, second;
-    float share;
+FREQSYNTH_INLINE void GuidedRegression::predict(std::span<const std::span<float>> pixels,
+                                                const ExecutorRef& executor) const {
+  FREQSYNTH_ASSERT(pixels.size() == sums_.size());
+  if (columns_.empty()) return;
+  share_pieces(executor, picture_.height / block_size, [&](std::size_t row) {
+    for (std::size_t y = row * block_size; y < (row + 1) * block_size; ++y) {
+      predict_row(y, pixels);
+    }
+  });
+}
+
+FREQSYNTH_INLINE void GuidedRegression::predict_row(
+    std::size_t y, std::span<const std::span<float>> pixels) const {
+  struct Cell {
+    const float* fit;
+    float share, right, down;  // the last two: from the cell's centre, in cells
   };
-  const auto beside = [&](std::size_t pixel, std::size_t cells) -> Beside {
-    const auto from_first =
-        (static_cast<float>(pixel) + 0.5f) / static_cast<float>(window_.cell) - 0.5f;
-    if (from_first <= 0) return {0, 0, 0};
-    const auto first = static_cast<std::size_t>(from_first);
-    return {first, std::min(first + 1, cells - 1), from_first - static_cast<float>(first)};
+  std::vector<float> guides(guides_.size());
+  const auto distance = [&](std::size_t at, std::size_t cell) {
+    return (static_cast<float>(at) + 0.5f) / static_cast<float>(window_.cell) -
+           static_cast<float>(cell) - 0.5f;
   };
-  for (std::size_t y = 0; y < picture_.height; ++y) {
-    const Beside rows = beside(y, cells_y_);
-    for (std::size_t x = 0; x < picture_.width; ++x) {
-      const Beside columns = beside(x, cells_x_);
-      const std::size_t pixel = y * picture_.width + x;
+  const LinearBlend<float>& rows = lines_[y];
+  const float down_first = distance(y, rows.first), down_second = distance(y, rows.second);
+  for (std::size_t x = 0; x < picture_.width; ++x) {
+    const LinearBlend<float>& columns = columns_[x];
+    const std::size_t pixel = y * picture_.width + x;
+    std::array<Cell, 4> cells;
+    std::size_t count = 0;
+    const auto add = [&](std::size_t cell_x, float right, std::size_t cell_y, float down,
+                         float share) {
+      const float* fit = &fits_[(cell_y * cells_x_ + cell_x) * sums_.size() * slopes_];
+      if (share > 0 && !is_nan(fit[0])) cells[count++] = {fit, share, right, down};
+    };
+    const float first = distance(x, columns.first), second = distance(x, columns.second);
+    add(columns.first, first, rows.first, down_first, (1 - columns.share) * (1 - rows.share));
+    add(columns.second, second, rows.first, down_first, columns.share * (1 - rows.share));
+    add(columns.first, first, rows.second, down_second, (1 - columns.share) * rows.share);
+    add(columns.second, second, rows.second, down_second, columns.share * rows.share);
+    if (count == 0) continue;
+    for (std::size_t g = 0; g < guides.size(); ++g) guides[g] = guides_[g].at_pixels[pixel];
+    for (std::size_t target = 0; target < pixels.size(); ++target) {
       float sum = 0, shares = 0;
-      const auto add = [&](std::size_t cell_x, std::size_t cell_y, float share) {
-        const float* fit = &fits_[((cell_y * cells_x_ + cell_x) * sums_.size() + target) * slopes_];
-        if (!(share > 0) || is_nan(fit[0])) return;
-        const auto distance = [&](std::size_t at, std::size_t cell) {
-          return (static_cast<float>(at) + 0.5f) / static_cast<float>(window_.cell) -
-                 static_cast<float>(cell) - 0.5f;
-        };
-        float value = fit[0] + fit[slopes_ - 2] * distance(x, cell_x) +
-                      fit[slopes_ - 1] * distance(y, cell_y);
-        for (std::size_t g = 0; g < guides_.size(); ++g) {
-          value += fit[g + 1] * guides_[g].at_pixels[pixel];
-        }
-        sum += share * value;
-        shares += share;
-      };
-      add(columns.first, rows.first, (1 - columns.share) * (1 - rows.share));
-      add(columns.second, rows.first, columns.share * (1 - rows.share));
-      add(columns.first, rows.second, (1 - columns.share) * rows.share);
-      add(columns.second, rows.second, columns.share * rows.share);
-      if (shares > 0) pixels[pixel] = sum / shares;
+      for (std::size_t k = 0; k < count; ++k) {
+        const float* fit = cells[k].fit + target * slopes_;
+        float value = fit[0] + fit[slopes_ - 2] * cells[k].right + fit[slopes_ - 1] * cells[k].down;
+        for (std::size_t g = 0; g < guides.size(); ++g) value += fit[g + 1] * guides[g];
+        sum += cells[k].share * value;
+        shares += cells[k].share;
+      }
+      pixels[target][pixel] = sum / shares;
     }
   }
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "freqsynth/basis/check.h"
+#include "freqsynth/engine/shared_work.h"
 #include "freqsynth/image/block_noise.h"
 #include "freqsynth/image/guided_regression.h"
 #include "freqsynth/image/smooth_noise.h"
@@ -42,12 +43,38 @@ inline void check_picture(const NoisyPicture& picture, std::span<const std::size
   }
 }
 
-/// Calls take(a, b) with each value of a line of `length` values and with those up to `reach` away.
-template <class Take>
-void visit_near(std::size_t length, std::size_t reach, Take&& take) {
-  for (std::size_t i = 0; i < length; ++i) {
-    for (std::size_t j = i - std::min(i, reach); j < std::min(i + reach + 1, length); ++j) {
-      take(i, j);
+/// Of each value of some rows the least and the greatest of those up to `reach` away along both
+/// axes.
+/// \param least  like `most`: the rows' results
+inline void extremes_near(std::span<const float> values, std::size_t width, std::size_t height,
+                          std::size_t reach, std::size_t first, std::size_t last, float* least,
+                          float* most) {
+  const std::size_t top = first - std::min(first, reach), bottom = std::min(last + reach, height);
+  NoisyPicture::Plane low((bottom - top) * width), high(low.size());
+  for (std::size_t y = top; y < bottom; ++y) {
+    const float* line = &values[y * width];
+    float *lows = &low[(y - top) * width], *highs = &high[(y - top) * width];
+    std::copy_n(line, width, lows);
+    std::copy_n(line, width, highs);
+    for (std::size_t shift = 1; shift <= reach && shift < width; ++shift) {
+      for (std::size_t x = 0; x + shift < width; ++x) {
+        lows[x] = std::min(lows[x], line[x + shift]);
+        highs[x] = std::max(highs[x], line[x + shift]);
+        lows[x + shift] = std::min(lows[x + shift], line[x]);
+        highs[x + shift] = std::max(highs[x + shift], line[x]);
+      }
+    }
+  }
+  for (std::size_t y = first; y < last; ++y) {
+    float *lows = least + (y - first) * width, *highs = most + (y - first) * width;
+    std::copy_n(&low[(y - top) * width], width, lows);
+    std::copy_n(&high[(y - top) * width], width, highs);
+    for (std::size_t v = y - std::min(y, reach); v < std::min(y + reach + 1, height); ++v) {
+      const float *low_line = &low[(v - top) * width], *high_line = &high[(v - top) * width];
+      for (std::size_t x = 0; x < width; ++x) {
+        lows[x] = std::min(lows[x], low_line[x]);
+        highs[x] = std::max(highs[x], high_line[x]);
+      }
     }
   }
 }
@@ -55,47 +82,26 @@ void visit_near(std::size_t length, std::size_t reach, Take&& take) {
 /// Holds pixels within the range of `known` in the 5 x 5 pixels around each: regressions ring
 /// beside what is far brighter.
 inline void hold_within(const NoisyPicture& picture, std::span<const float> known,
-                        std::span<float> pixels) {
-  constexpr std::size_t reach = 2;
+                        std::span<float> pixels, const ExecutorRef& executor) {
+  constexpr std::size_t reach = 2, rows = 2 * block_size;
   const std::size_t width = picture.width;
-  NoisyPicture::Plane low(known.begin(), known.end()), high = low;
-  for (std::size_t y = 0; y < picture.height; ++y) {
-    const std::size_t row = y * width;
-    visit_near(width, reach, [&](std::size_t x, std::size_t other) {
-      low[row + x] = std::min(low[row + x], known[row + other]);
-      high[row + x] = std::max(high[row + x], known[row + other]);
-    });
-  }
-  NoisyPicture::Plane least = low, most = high;
-  visit_near(picture.height, reach, [&](std::size_t y, std::size_t other) {
-    for (std::size_t x = 0; x < width; ++x) {
-      least[y * width + x] = std::min(least[y * width + x], low[other * width + x]);
-      most[y * width + x] = std::max(most[y * width + x], high[other * width + x]);
+  share_pieces(executor, (picture.height + rows - 1) / rows, [&](std::size_t part) {
+    const std::size_t first = part * rows, last = std::min(first + rows, picture.height);
+    NoisyPicture::Plane least((last - first) * width), most(least.size());
+    extremes_near(known, width, picture.height, reach, first, last, least.data(), most.data());
+    for (std::size_t i = 0; i < least.size(); ++i) {
+      float& pixel = pixels[first * width + i];
+      pixel = std::clamp(pixel, least[i], most[i]);
     }
   });
-  for (std::size_t i = 0; i < pixels.size(); ++i) {
-    pixels[i] = std::clamp(pixels[i], least[i], most[i]);
-  }
 }
 
 /// Of each block the least value of those in it and in the eight around it.
 inline NoisyPicture::Plane least_around(const NoisyPicture::Plane& values, std::size_t blocks_x) {
+  NoisyPicture::Plane least(values.size()), most(values.size());
   const std::size_t blocks_y = values.size() / blocks_x;
-  NoisyPicture::Plane lines = values;
-  for (std::size_t y = 0; y < blocks_y; ++y) {
-    visit_near(blocks_x, 1, [&](std::size_t x, std::size_t other) {
-      float& least = lines[y * blocks_x + x];
-      least = std::min(least, values[y * blocks_x + other]);
-    });
-  }
-  NoisyPicture::Plane all = lines;
-  visit_near(blocks_y, 1, [&](std::size_t y, std::size_t other) {
-    for (std::size_t x = 0; x < blocks_x; ++x) {
-      float& least = all[y * blocks_x + x];
-      least = std::min(least, lines[other * blocks_x + x]);
-    }
-  });
-  return all;
+  extremes_near(values, blocks_x, blocks_y, 1, 0, blocks_y, least.data(), most.data());
+  return least;
 }
 
 /// What feature_guides() refers to, of each feature.
@@ -107,23 +113,29 @@ struct FeatureSamples {
 /// Features as guides. Those that are the same everywhere tell nothing.
 inline std::vector<GuidedRegression::Guide> feature_guides(const NoisyPicture& picture,
                                                            std::span<const std::size_t> features,
-                                                           std::vector<FeatureSamples>& samples) {
+                                                           std::vector<FeatureSamples>& samples,
+                                                           const ExecutorRef& executor) {
   constexpr double ridge = 0.01;  // of the variance over the picture
   constexpr double noise_ridge = 4;
-  std::vector<GuidedRegression::Guide> guides;
-  samples.reserve(features.size());
-  for (const std::size_t channel : features) {
+  std::vector<double> spreads(features.size());
+  samples.resize(features.size());
+  share_pieces(executor, features.size(), [&](std::size_t i) {
+    const std::size_t channel = features[i];
     const NoisyPicture::Plane& pixels = picture.pixels[channel];
-    const double spread = deviation(pixels);
-    if (!(spread > 0)) continue;
+    spreads[i] = deviation(pixels);
+    if (!(spreads[i] > 0)) return;
     // An edge of a feature is in some blocks only, noise of one is around as well.
-    auto& [means, variances] = samples.emplace_back(FeatureSamples{
-        pixels, least_around(picture.variances[channel], picture.width / block_size)});
-    for (std::size_t i = 0; i < means.size(); ++i) {
-      if (picture.weights[i] > 0) means[i] = picture.sums[channel][i] / picture.weights[i];
+    samples[i] = {pixels, least_around(picture.variances[channel], picture.width / block_size)};
+    auto& means = samples[i].means;
+    for (std::size_t k = 0; k < means.size(); ++k) {
+      if (picture.weights[k] > 0) means[k] = picture.sums[channel][k] / picture.weights[k];
     }
-    guides.push_back(
-        {means.data(), pixels.data(), ridge * spread * spread, noise_ridge, variances.data()});
+  });
+  std::vector<GuidedRegression::Guide> guides;
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    if (!(spreads[i] > 0)) continue;
+    guides.push_back({samples[i].means.data(), picture.pixels[features[i]].data(),
+                      ridge * spreads[i] * spreads[i], noise_ridge, samples[i].variances.data()});
   }
   return guides;
 }
@@ -131,7 +143,6 @@ inline std::vector<GuidedRegression::Guide> feature_guides(const NoisyPicture& p
 FREQSYNTH_INLINE void smooth_noise_on(NoisyPicture& picture, std::span<const std::size_t> channels,
                                       std::span<const std::size_t> features,
                                       const ExecutorRef& executor) {
-  static_cast<void>(executor);
   check_picture(picture, channels);
   check_picture(picture, features);
   if (picture.weights.empty() || channels.empty()) return;
@@ -143,7 +154,7 @@ FREQSYNTH_INLINE void smooth_noise_on(NoisyPicture& picture, std::span<const std
   constexpr Pass passes[] = {{3, 1}, {0.6, 0.3}};
   constexpr double last_border = 0.1;
   const auto close_all = [&](std::size_t channel, double variance) {
-    close_borders(picture, picture.sums[channel], variance, picture.pixels[channel]);
+    close_borders(picture, picture.sums[channel], variance, picture.pixels[channel], executor);
   };
 
   // Pixels of many samples follow them closely, and leave nothing over that tells of noise. What a
@@ -160,27 +171,28 @@ FREQSYNTH_INLINE void smooth_noise_on(NoisyPicture& picture, std::span<const std
   for (const std::size_t channel : channels) sums.push_back(picture.sums[channel].data());
   for (const std::size_t channel : features) close_all(channel, passes[0].border);
   std::vector<FeatureSamples> feature_samples;
-  std::vector<GuidedRegression::Guide> guides = feature_guides(picture, features, feature_samples);
+  std::vector<GuidedRegression::Guide> guides =
+      feature_guides(picture, features, feature_samples, executor);
   for (const Pass& pass : passes) {
     for (std::size_t t = 0; t < channels.size(); ++t) {
       close_all(channels[t], pass.border);
       const float* pilot = picture.pixels[channels[t]].data();
       guides.push_back({pilot, pilot, 0, pass.ridge, variances[t].data(), t});
     }
-    const GuidedRegression regression(picture, {2, 2}, guides, sums);
+    const GuidedRegression regression(picture, {2, 2}, guides, sums, executor);
     std::vector<NoisyPicture::Plane> predictions;
+    for (const std::size_t channel : channels) predictions.push_back(picture.pixels[channel]);
+    regression.predict(std::vector<std::span<float>>(predictions.begin(), predictions.end()),
+                       executor);
     for (std::size_t t = 0; t < channels.size(); ++t) {
-      const NoisyPicture::Plane& pilot = picture.pixels[channels[t]];
-      regression.predict(t, predictions.emplace_back(pilot));
-      hold_within(picture, pilot, predictions.back());
-    }
-    for (std::size_t t = 0; t < channels.size(); ++t) {
-      picture.pixels[channels[t]] = std::move(predictions[t]);
+      NoisyPicture::Plane& pilot = picture.pixels[channels[t]];
+      hold_within(picture, pilot, predictions[t], executor);
+      pilot = std::move(predictions[t]);
     }
     guides.clear();
   }
   for (const std::size_t channel : channels) {
-    pool_levels(picture, picture.sums[channel], picture.pixels[channel]);
+    pool_levels(picture, picture.sums[channel], picture.pixels[channel], executor);
     close_all(channel, last_border);
   }
 }

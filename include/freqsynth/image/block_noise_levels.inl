@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+// How the levels of blocks are drawn to those around.
+#pragma once
+
+#include "freqsynth/image/linear_blend.h"
+
+namespace freqsynth {
+namespace detail {
+
+/// Of all blocks, with room around each row and rows above and below, in which nothing is.
+class BlockLevels {
+ public:
+  static constexpr std::size_t reach = 4;
+
+  BlockLevels(const std::vector<BlockResidual>& blocks, std::size_t blocks_x)
+      : blocks_x_(blocks_x),
+        blocks_y_(blocks.size() / blocks_x),
+        stride_(blocks_x + 2 * reach),
+        known_(stride_ * blocks_y_),
+        samples_(known_),
+        sums_(known_),
+        levels_(known_),
+        ranks_(blocks.size(), none) {
+    for (std::size_t block = 0; block < blocks.size(); ++block) {
+      const BlockResidual& one = blocks[block];
+      const std::size_t at = block / blocks_x * stride_ + block % blocks_x + reach;
+      levels_[at] = one.level;
+      if (!(one.sampled > 0)) continue;
+      known_[at] = 1;
+      samples_[at] = one.samples;
+      sums_[at] = one.samples * one.level + one.sum;
+      order_.push_back({one.variance(), static_cast<std::uint32_t>(block)});
+    }
+    std::sort(order_.begin(), order_.end());
+    for (std::size_t rank = 0; rank < order_.size(); ++rank) {
+      ranks_[order_[rank].second] = static_cast<std::uint32_t>(rank);
+    }
+  }
+
+  /// How far the level of each block of a row is from what it is to be.
+  void corrections(std::size_t row, std::span<double> out) const;
+
+ private:
+  static constexpr std::uint32_t none = 0xffffffffu;
+
+  /// Calls visit(weight, place) with the place of what is beside a row's first block, for all that
+  /// are around.
+  template <class Visit>
+  void visit_around(std::size_t row, Visit&& visit) const {
+    for (std::size_t v = row - std::min(row, reach); v < std::min(row + reach + 1, blocks_y_);
+         ++v) {
+      const std::size_t down = v > row ? v - row : row - v;
+      for (std::size_t u = 0; u <= 2 * reach; ++u) {
+        const std::size_t across = u > reach ? u - reach : reach - u;
+        visit(static_cast<double>((reach + 1 - across) * (reach + 1 - down)), v * stride_ + u);
+      }
+    }
+  }
+  void usual_variances(std::size_t row, std::span<double> out) const;
+
+  std::size_t blocks_x_, blocks_y_, stride_;
+  std::vector<double> known_, samples_, sums_, levels_;
+  std::vector<std::pair<double, std::uint32_t>> order_;  // variances and blocks
+  std::vector<std::uint32_t> ranks_;                     // of each block in the order
+};
+
+/// Of the variances around, one that most do not exceed: not the mean, for a part of the picture
+/// with far more noise must not speak for the others. 0 where none is known.
+inline void BlockLevels::usual_variances(std::size_t row, std::span<double> out) const {
+  constexpr double usual = 0.65;  // a share of blocks
+  WindowRanks window(order_.size());
+  std::size_t count = 0;
+  const std::size_t top = row - std::min(row, reach);
+  const std::size_t bottom = std::min(row + reach + 1, blocks_y_);
+  const auto visit_column = [&](std::size_t x, auto&& visit) {
+    for (std::size_t v = top; v < bottom; ++v) {
+      const std::uint32_t rank = ranks_[v * blocks_x_ + x];
+      if (rank != none) visit(rank);
+    }
+  };
+  const auto add = [&](std::uint32_t rank) {
+    window.add(rank);
+    ++count;
+  };
+  const auto remove = [&](std::uint32_t rank) {
+    window.remove(rank);
+    --count;
+  };
+  for (std::size_t x = 0; x < std::min(reach, blocks_x_); ++x) visit_column(x, add);
+  for (std::size_t x = 0; x < blocks_x_; ++x) {
+    if (x + reach < blocks_x_) visit_column(x + reach, add);
+    if (x > reach) visit_column(x - reach - 1, remove);
+    out[x] = 0;
+    if (count == 0) continue;
+    const auto place = static_cast<std::size_t>(usual * static_cast<double>(count - 1));
+    out[x] = order_[window.of_rank(place)].first;
+  }
+}
+
+inline void BlockLevels::corrections(std::size_t row, std::span<double> out) const {
+  std::vector<double> shares(blocks_x_), samples(blocks_x_), means(blocks_x_), spread(blocks_x_);
+  std::vector<double> variances(blocks_x_);
+  // One block around after the other, of all blocks of the row.
+  visit_around(row, [&](double share, std::size_t place) {
+    for (std::size_t x = 0; x < blocks_x_; ++x) {
+      shares[x] += share * known_[place + x];
+      samples[x] += share * samples_[place + x];
+      means[x] += share * sums_[place + x];
+    }
+  });
+  for (std::size_t x = 0; x < blocks_x_; ++x) {
+    means[x] = shares[x] > 0 ? means[x] / samples[x] : 0;
+  }
+  visit_around(row, [&](double share, std::size_t place) {
+    for (std::size_t x = 0; x < blocks_x_; ++x) {
+      const double difference = levels_[place + x] - means[x];
+      spread[x] += share * samples_[place + x] * difference * difference;
+    }
+  });
+  usual_variances(row, variances);
+  for (std::size_t x = 0; x < blocks_x_; ++x) {
+    out[x] = 0;
+    if (!(shares[x] > 0)) continue;
+    const std::size_t own = row * stride_ + x + reach;
+    const double signal = std::max(0.0, (spread[x] - shares[x] * variances[x]) / samples[x]);
+    const double noise = variances[x] / std::max(1.0, samples_[own]);
+    if (noise > 0) out[x] = noise / (signal + noise) * (means[x] - levels_[own]);
+  }
+}
+
+FREQSYNTH_INLINE void pool_levels(const NoisyPicture& picture, std::span<const float> sums,
+                                  std::span<float> pixels, const ExecutorRef& executor) {
+  constexpr int times = 4;  // each reaches further
+  const std::size_t blocks_x = picture.width / block_size;
+  const std::size_t blocks_y = picture.height / block_size;
+  if (blocks_x * blocks_y == 0) return;
+  const std::vector<LinearBlend<double>> columns =
+      blends_along(picture.width, block_size, blocks_x, static_cast<double>(blocks_x - 1));
+  const std::vector<LinearBlend<double>> rows =
+      blends_along(picture.height, block_size, blocks_y, static_cast<double>(blocks_y - 1));
+  std::vector<double> corrections(blocks_x * blocks_y);
+  for (int i = 0; i < times; ++i) {
+    const BlockLevels levels(block_residuals(picture, sums, pixels, executor), blocks_x);
+    share_pieces(executor, blocks_y, [&](std::size_t row) {
+      levels.corrections(row, std::span(corrections).subspan(row * blocks_x, blocks_x));
+    });
+    share_pieces(executor, blocks_y, [&](std::size_t row) {
+      for (std::size_t y = row * block_size; y < (row + 1) * block_size; ++y) {
+        const double* above = &corrections[rows[y].first * blocks_x];
+        const double* below = &corrections[rows[y].second * blocks_x];
+        const double down = rows[y].share;
+        for (std::size_t x = 0; x < picture.width; ++x) {
+          const LinearBlend<double>& column = columns[x];
+          const double right = column.share;
+          const double correction =
+              (1 - down) * ((1 - right) * above[column.first] + right * above[column.second]) +
+              down * ((1 - right) * below[column.first] + right * below[column.second]);
+          pixels[y * picture.width + x] += static_cast<float>(correction);
+        }
+      }
+    });
+  }
+}
+
+}  // namespace detail
+}  // namespace freqsynth
