@@ -209,5 +209,63 @@ TEST_P(PictureKernels, TransformsToTheBitsOfThePlainOne) {
   }
 }
 
+TEST_P(PictureKernels, SolveFourSystemsAtOnce) {
+  constexpr std::size_t lanes = 4, sides = 3;
+  oracle::Random random(8);
+  for (std::size_t n = 1; n <= 14; ++n) {
+    // Of the third system the last pivot is below zero.
+    detail::AlignedVector<double> matrix(n * n * lanes), right(n * sides * lanes);
+    for (std::size_t k = 0; k < lanes; ++k) {
+      std::vector<double> root(n * n);
+      for (double& value : root) value = random.uniform(-1, 1);
+      for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t j = 0; j < n; ++j) {
+          double sum = i == j ? 0.5 : 0;
+          for (std::size_t m = 0; m < n; ++m) sum += root[i * n + m] * root[j * n + m];
+          if (k == 2 && i == j && i + 1 == n) sum = -1;
+          matrix[(i * n + j) * lanes + k] = sum;
+        }
+      }
+    }
+    for (double& value : right) value = random.uniform(-1, 1);
+    detail::AlignedVector<double> factors = matrix, found = right;
+    detail::AlignedArray<double, lanes> definite;
+    version_->solve_four(factors.data(), found.data(), n, sides, definite.data());
+    for (std::size_t k = 0; k < lanes; ++k) {
+      ASSERT_EQ(definite[k], k == 2 ? 0 : 1) << n;
+      if (k == 2) continue;
+      for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t c = 0; c < sides; ++c) {
+          double sum = 0;
+          for (std::size_t j = 0; j < n; ++j) {
+            sum += matrix[(i * n + j) * lanes + k] * found[(j * sides + c) * lanes + k];
+          }
+          ASSERT_NEAR(sum, right[(i * sides + c) * lanes + k], 1e-10) << n;
+        }
+      }
+    }
+    detail::AlignedVector<double> plain = right;
+    factors = matrix;
+    kernel_cases::plain().solve_four(factors.data(), plain.data(), n, sides, definite.data());
+    ASSERT_TRUE(found == plain) << n;
+  }
+}
+
+TEST_P(PictureKernels, AddScaledNumbersAnywhere) {
+  oracle::Random random(4);
+  for (std::size_t count = 0; count < 40; ++count) {
+    std::vector<double> values(count + 2), sums(count + 2);
+    for (double& value : values) value = random.uniform(-1, 1);
+    for (double& value : sums) value = random.uniform(-1, 1);
+    std::vector<double> expected = sums;
+    for (std::size_t i = 1; i <= count; ++i) {
+      volatile double product = 0.3 * values[i];
+      expected[i] += product;
+    }
+    version_->add_scaled(values.data() + 1, 0.3, count, sums.data() + 1);
+    ASSERT_EQ(sums, expected) << count;
+  }
+}
+
 }  // namespace
 }  // namespace freqsynth
