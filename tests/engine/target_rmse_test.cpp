@@ -192,11 +192,13 @@ TEST(TargetRmse, OfInfinityIsMetAtTheFirstLookAndOfZeroNever) {
 TEST(TargetRmse, IsToldByProgressThatRises) {
   Synthesizer engine(settings_of(96, 80));
   std::vector<double> fractions;
+  std::vector<std::uint64_t> samples;
   std::size_t others = 0;
   double last = infinity;
   engine.run(picture, {.samples_per_pixel = 50, .target_rmse = 0.01}, SerialExecutor{},
              [&](const Progress& now) {
                fractions.push_back(now.fraction);
+               samples.push_back(now.samples);
                others += now.predicted_rmse != last ? 1 : 0;
                last = now.predicted_rmse;
                return true;
@@ -206,8 +208,9 @@ TEST(TargetRmse, IsToldByProgressThatRises) {
   EXPECT_EQ(fractions.back(), 1);
   EXPECT_GE(others, 5u);
   EXPECT_LE(last, 0.01);
-  // Half of the batches are not all below a tenth: it tells something.
-  EXPECT_GT(fractions[fractions.size() / 2], 0.1);
+  // With half of the samples it is not below a tenth: it tells something.
+  const auto half = std::lower_bound(samples.begin(), samples.end(), samples.back() / 2);
+  EXPECT_GT(fractions[static_cast<std::size_t>(half - samples.begin())], 0.1);
 }
 
 TEST(TargetRmse, InALoopOfTheHostsOwn) {

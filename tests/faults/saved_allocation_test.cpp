@@ -34,6 +34,8 @@ TEST(SavedAllocation, AnEngineIsLoadedOrNot) {
   const std::vector<std::byte> bytes = engine->save();
   SynthesisSettings settings = helpers::settings_of(48, 40, 1, 8);
   settings.shared_list = engine->settings().shared_list;
+  // The list, which others share, stays as long as the next wave needs it.
+  { const Synthesizer first(settings, bytes); }
   for (std::size_t k = 0;; ++k) {
     const std::size_t before = faults::bytes_in_use();
     const faults::FailAllocation fault(k);
