@@ -63,14 +63,14 @@ row() {
     }'
 }
 for microseconds in 1 10 100; do
-  spp=$(awk -v t=$microseconds 'BEGIN { print t > 50 ? 0.1 : 0.5 }')
+  spp=$(awk -v t=$microseconds 'BEGIN { print (t > 50 ? 0.0625 : 0.25) }')
   for ranks in 1 2 4; do
     on $ranks "${size[@]}" --spp "$spp" --busy $microseconds
     row "$microseconds us, computes" $ranks
   done
 done
 for ranks in 5 9 17; do
-  on $ranks "${size[@]}" --spp 0.5 --sleep 100
+  on $ranks "${size[@]}" --spp 0.25 --sleep 100
   row "100 us, sleeps" $ranks
 done
 

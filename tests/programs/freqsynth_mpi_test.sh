@@ -107,8 +107,13 @@ expect_failure 2 "--windows" --windows 2x2 --checkpoint state -o a.png
 expect_failure 1 "missing" "${small[@]}" --resume missing -o a.png
 
 # An interrupt: what there is is written.
-"$program" --scene chess --size 256x256 --spp 100 --sleep 100 -o part.pfm >said 2>&1 &
-sleep 2
+rm -f state
+"$program" --scene chess --size 256x256 --spp 100 --sleep 100 --checkpoint state --checkpoint-every 0.5 \
+  -o part.pfm >said 2>&1 &
+for ((i = 0; i < 300; ++i)); do
+  [[ ! -e state ]] || break
+  sleep 0.1
+done
 kill -INT $!
 status=0
 wait $! || status=$?
