@@ -7,12 +7,15 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <random>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "freqsynth/basis/archive.h"
+#include "freqsynth/engine/state_archive.h"
 #include "freqsynth/engine/thread_pool.h"
 #include "freqsynth/synthesizer.h"
 #include "support/engine_helpers.h"
@@ -170,6 +173,37 @@ TEST(SavedSynthesis, GoesOnWithTheStopRuleThatWasSet) {
             3);
 }
 
+TEST(SavedSynthesis, GoesOnWithTheTimeThatWasSet) {
+  Synthesizer engine(helpers::settings_of(20, 20));
+  engine.set_stop({.seconds = 0});
+  Synthesizer loaded(engine.settings(), engine.save());
+  EXPECT_EQ(loaded.stopped(), StopReason::seconds);
+}
+
+/// A sampler without a usable value is not asked for ever.
+TEST(SavedSynthesis, IsAsPatientAsItsTwin) {
+  Synthesizer twin(helpers::settings_of(20, 20));
+  auto saved = std::make_unique<Synthesizer>(twin.settings());
+  const auto next = [](Synthesizer& engine) {
+    const std::vector<Request> requests = requests_of(engine);
+    const std::vector<float> nothing(requests.size(), std::numeric_limits<float>::quiet_NaN());
+    engine.deliver(requests, nothing);
+    return !requests.empty();
+  };
+  for (int wave = 0; wave < 30; ++wave) {
+    next(twin);
+    next(*saved);
+  }
+  twin.set_stop({});  // as many samples more
+  saved->set_stop({});
+  while (next(twin)) {
+    save_and_load(saved);
+    ASSERT_TRUE(next(*saved));
+  }
+  EXPECT_EQ(saved->stopped(), StopReason::unusable);
+  EXPECT_EQ(saved->stats().samples, twin.stats().samples);
+}
+
 TEST(SavedSynthesis, GoesOnWithTheImportanceThatWasSet) {
   RandomSynthesis synthesis(17);
   synthesis.settings = helpers::settings_of(27, 18, 2, 5);
@@ -220,6 +254,30 @@ TEST(SavedSynthesis, SeveralThreadsMaySampleMeanwhile) {
     Synthesizer loaded(settings, saved[i]);
     loaded.run(helpers::picture, stop);
     EXPECT_EQ(loaded.image().save(), undisturbed.image().save());
+  }
+}
+
+/// Pixels of more samples than two bytes count.
+TEST(SavedSynthesis, WideCountersAreSavedAsSuch) {
+  const BlockGrid grid = BlockGrid::of(3, 2, 1);
+  for (const bool wide : {false, true}) {
+    PixelCounts counts(grid), loaded(grid);
+    counts.reserve(wide ? 70000 : 60000);
+    for (int i = 0; i < (wide ? 70000 : 60000); ++i) counts.next(4);
+    Bytes bytes;
+    const auto sink = [&](std::span<const std::byte> more) {
+      bytes.insert(bytes.end(), more.begin(), more.end());
+    };
+    detail::StateWriter writer(sink, detail::synthesis_kind);
+    writer.section("PIXL", [&] { StateArchive::pixels(writer, counts); });
+    detail::StateReader reader(bytes, detail::synthesis_kind);
+    reader.section("PIXL", [&] { StateArchive::pixels(reader, loaded); });
+    // Those of two bytes have to know that they are nearly full.
+    loaded.reserve(10000);
+    counts.reserve(10000);
+    for (const std::size_t pixel : {std::size_t{0}, std::size_t{4}, std::size_t{5}})
+      EXPECT_EQ(loaded.next(pixel), counts.next(pixel));
+    EXPECT_EQ(loaded.next(4), wide ? 70001u : 60001u);
   }
 }
 
