@@ -3,12 +3,22 @@
 # Renders the colonnade by all samplers and an OBJ file, and uses freqsynth_embree wrongly.
 #   freqsynth_embree_test.sh PROGRAM FOLDER
 set -euo pipefail
-source "$(dirname "${BASH_SOURCE[0]}")/expect_failure.sh"
+script=$(realpath "${BASH_SOURCE[0]}")
+source "$(dirname "$script")/expect_failure.sh"
 program=$(realpath "$1")
 folder=$2
 rm -rf "$folder"
 mkdir -p "$folder"
 cd "$folder"
+
+# A reader can copy the glue: the documents say how long it is.
+root=$(cd "$(dirname "$script")/../.." && pwd)
+lines=$(wc -l <"$root/examples/embree/glue.h")
+[[ $lines -lt 60 ]] || fail "glue.h has $lines lines"
+for document in README.md docs/embree.md; do
+  tr '\n' ' ' <"$root/$document" | grep -q "embree/glue.h\`, $lines lines" ||
+    fail "$document does not say that glue.h has $lines lines"
+done
 
 small=(--size 43x30 --spp 2)
 expect_failure 2 "usage: freqsynth_embree"
