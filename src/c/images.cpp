@@ -60,6 +60,7 @@ freqsynth_status freqsynth_finish(const freqsynth_synthesizer* synthesizer,
   return guarded([&] {
     const auto& engine = object(synthesizer, "synthesizer").engine;
     const freqsynth::PixelView view = view_of(pixels);
+    if (reconstruction == nullptr) return engine.finish(view, finish_settings_of(finish));
     const auto settings = reconstruction_settings_of(reconstruction);
     freqsynth::reconstruct(engine.finished_image(finish_settings_of(finish)), settings, view);
   });
