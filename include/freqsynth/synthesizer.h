@@ -57,9 +57,9 @@ struct SynthesisSettings {
   /// Most samples of a block, 1 .. SampleSequence::max_size. The default, a complete lattice of 257
   /// x 257, is about 1000 samples per pixel; the shared list takes 80 MB when a block gets there.
   std::size_t max_samples_per_block = std::size_t{257} * 257;
-  /// So many samples go to every block before errors decide which is next, 0 ..
-  /// max_samples_per_block; to one that is narrower than 8 x 8 pixels, or whose importance is below
-  /// 1, in proportion. Equal to max_samples_per_block: uniform sampling.
+  /// So many samples go to every block before errors decide which is next, at most
+  /// max_samples_per_block. In proportion fewer go to blocks that are narrower than 8 x 8 pixels,
+  /// or whose importance is below 1. As many as the most: uniform sampling.
   std::size_t least_samples_per_block = 0;
   /// What each channel is for; empty: all steer, with equal weights. Those of ChannelRole::nearest
   /// come after the others, of which there is at least one.

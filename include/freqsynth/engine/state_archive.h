@@ -33,7 +33,8 @@
 
 namespace freqsynth {
 
-/// Each member lists a part for an archive, to be saved or to be loaded. All of this is internal.
+/// \cond internal
+/// Each member lists a part for an archive, to be saved or to be loaded.
 struct StateArchive {
   template <class Archive, class Stats>
   static void stats(Archive& archive, Stats& stats) {
@@ -284,6 +285,7 @@ struct StateArchive {
   static void edge(Archive& archive, Cache& cache, Edge& edge, std::uint32_t first,
                    std::uint32_t count);
 };
+/// \endcond
 
 }  // namespace freqsynth
 
