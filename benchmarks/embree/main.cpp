@@ -38,7 +38,7 @@ Renderer make_renderer(std::size_t width, std::size_t height, std::uint32_t ligh
 }
 
 /// The renderer's own time is that within its calls, on all threads; the engine's that of the
-/// thread that runs it, outside of these.
+/// thread that runs it, outside of these. The finish is measured on one thread, but all can do it.
 void measure_share(const Renderer& renderer, const Job& job, std::size_t threads,
                    std::uint32_t light_samples) {
   HostPool pool = make_pool(threads);
@@ -59,7 +59,8 @@ void measure_share(const Renderer& renderer, const Job& job, std::size_t threads
   engine.run(timed, {.samples_per_pixel = job.samples_per_pixel}, pool, freqsynth::KeepGoing{},
              batch);
   const double sampled = of_thread();
-  const std::vector<float> pixels = freqsynth::reconstruct(engine.finished_image());
+  std::vector<float> pixels(job.width * job.height * (channels - 1));
+  engine.finish({.data = pixels.data(), .width = job.width, .height = job.height});
   const std::vector<float> depths = engine.nearest_pixels(channels - 1);
   const double finished = of_thread();
   const double count = static_cast<double>(engine.stats().samples + engine.stats().probes);
@@ -69,7 +70,7 @@ void measure_share(const Renderer& renderer, const Job& job, std::size_t threads
   const auto share = [&](double own) { return 100 * own / (own + host / workers); };
   std::printf("| %u | %g | %zu | %.2f | %.2f | %.2f | %.0f %% | %.0f %% |\n", light_samples,
               job.samples_per_pixel, threads, 1e6 * host, 1e6 * core, 1e6 * finish, share(core),
-              share(core + finish));
+              share(core + finish / workers));
   std::fflush(stdout);
 }
 

@@ -86,13 +86,16 @@ Pixels render_adaptively(const Renderer& renderer, const Job& job, HostPool& poo
   engine.run(Sampler{renderer, job.frame}, {.samples_per_pixel = job.samples_per_pixel}, pool,
              progress, batch);
   checkpoint.keep(engine);
-  const std::vector<float> means = freqsynth::reconstruct(engine.finished_image());
+  Pixels pixels(job.width * job.height * channels);
+  // All but depth come finished, to where they belong.
+  engine.finish({.data = pixels.data(),
+                 .width = job.width,
+                 .height = job.height,
+                 .pixel_stride = channels,
+                 .row_stride = static_cast<std::ptrdiff_t>(job.width * channels)},
+                {}, pool);
   const std::vector<float> depths = engine.nearest_pixels(depth);
-  Pixels pixels(depths.size() * channels);
-  for (std::size_t p = 0; p < depths.size(); ++p) {
-    std::copy_n(means.data() + p * depth, depth, pixels.data() + p * channels);
-    pixels[p * channels + depth] = depths[p];
-  }
+  for (std::size_t p = 0; p < depths.size(); ++p) pixels[p * channels + depth] = depths[p];
   return pixels;
 }
 
