@@ -153,8 +153,9 @@ TEST(GuidedRegression, IsTheWeightedLeastSquaresOfEachCell) {
   for (const GuidedRegression::Window window : {GuidedRegression::Window{2, 2}, {4, 1}, {8, 0}}) {
     const GuidedRegression regression(picture, window, guides,
                                       {picture.sums[0].data(), picture.sums[1].data()});
-    Plane found(24 * 16);
-    regression.predict(std::array{std::span<float>(found)});
+    // The noise of a guide goes by the first target; the second one comes along.
+    Plane found(24 * 16), second(24 * 16);
+    regression.predict(std::array{std::span<float>(found), std::span<float>(second)});
     const auto cells_x = 24 / window.cell, cells_y = 16 / window.cell;
     for (std::size_t y = 0; y < 16; ++y) {
       for (std::size_t x = 0; x < 24; ++x) {
