@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -10,10 +11,13 @@
 #include <memory>
 #include <optional>
 #include <random>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "freqsynth/basis/archive.h"
+#include "freqsynth/engine/block_queue.h"
 #include "freqsynth/synthesizer.h"
 #include "freqsynth/synthesizer_file.h"
 #include "support/engine_helpers.h"
@@ -94,6 +98,24 @@ TEST(SavedSynthesisBytes, OtherContentIsRefusedOrGoesOn) {
   }
   EXPECT_GT(refused, 100);
   EXPECT_GT(loaded, 100);
+}
+
+TEST(SavedSynthesisBytes, ABlockThatIsFullMayNotBeChosen) {
+  SynthesisSettings settings = helpers::settings_of(12, 17);
+  settings.max_samples_per_block = 9;
+  Synthesizer engine(settings);
+  engine.run(helpers::picture, {});
+  Bytes bytes = engine.save();
+  const float out = BlockQueue::absent, in = 1;
+  const std::vector<float> priorities(6, out);
+  std::array<std::byte, 24> wanted;
+  detail::encode(std::span<const float>(priorities), wanted.data());
+  const auto found = std::search(bytes.begin(), bytes.end(), wanted.begin(), wanted.end());
+  ASSERT_NE(found, bytes.end());
+  detail::encode(std::span<const float>(&in, 1), &*found);
+  EXPECT_THAT(
+      [&] { Synthesizer(settings, testing_support::with_right_checks(bytes)); },
+      ThrowsMessage<std::runtime_error>(HasSubstr("holds what it cannot, in section CHOI")));
 }
 
 TEST(SavedSynthesisBytes, OtherSettingsAreRefusedByName) {

@@ -46,7 +46,7 @@ void Engine<R, M>::list_parts(Archive& archive, Self& self) {
   });
   archive.section("SIGN", [&] { StateArchive::signal(archive, self.signal_); });
   archive.section("CHOI", [&] {
-    StateArchive::choice(archive, self.choice_);
+    StateArchive::choice(archive, self.choice_, self.blocks_);
     bool others = self.factors_.has_value();
     archive.number(others);
     if constexpr (Archive::loading) {

@@ -172,13 +172,15 @@ struct StateArchive {
     }
   }
 
-  template <class Archive, class Choice>
-  static void choice(Archive& archive, Choice& choice) {
+  /// Blocks that are full must be out of the queue.
+  template <class Archive, class Choice, class Store>
+  static void choice(Archive& archive, Choice& choice, const Store& blocks) {
     factors(archive, choice.factors_);
     for (std::size_t b = 0; b < choice.queue_.size(); ++b) {
       float priority = choice.queue_.priority(b);
       archive.number(priority);
-      archive.check(detail::is_finite(priority));
+      archive.check(detail::is_finite(priority) &&
+                    (priority == BlockQueue::absent || !blocks.full(b)));
       if constexpr (Archive::loading) choice.queue_.update(b, priority);
     }
     measure(archive, choice.measure_);
