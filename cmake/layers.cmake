@@ -13,6 +13,7 @@ set(FREQSYNTH_LAYERS
   "basis/mix_bits.h|bits that look random, from bits that do not|"
   "basis/owen_sobol.h|Owen-scrambled Sobol points, for a host's lens and light|"
   "basis/aligned.h|memory that starts on a cache line|"
+  "basis/large_pages.h|large arrays in large pages, where the system has them|"
   "basis/srgb.h|the transfer function of sRGB|"
   "basis/kernels.h|the vectorised inner loops, for several instruction sets|"
   "basis/dct.h|cosine terms at any point, zig-zag order, forward and inverse transform|2, eqs. 1, 2, 34"

@@ -55,7 +55,7 @@ struct SynthesisSettings {
   /// order: one sample of one block.
   std::size_t wave = 0;
   /// Most samples of a block, 1 .. SampleSequence::max_size. The default, a complete lattice of 257
-  /// x 257, is about 1000 samples per pixel; the shared list takes 80 MB when a block gets there.
+  /// x 257, is about 1000 samples per pixel; the shared list takes 60 MB when a block gets there.
   std::size_t max_samples_per_block = std::size_t{257} * 257;
   /// So many samples go to every block before errors decide which is next, at most
   /// max_samples_per_block. In proportion fewer go to blocks that are narrower than 8 x 8 pixels,

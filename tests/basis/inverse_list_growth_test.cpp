@@ -21,7 +21,7 @@ bool same_entry(const InverseList& a, const InverseList& b, std::size_t index) {
   return a.position(index).s == b.position(index).s && a.position(index).t == b.position(index).t &&
          a.terms(index) == b.terms(index) && same(a.inverse(index), b.inverse(index)) &&
          same(a.gain(index), b.gain(index)) && same(a.border(index), b.border(index)) &&
-         std::equal(a.row(index).rest, a.row(index).rest + max_terms, b.row(index).rest);
+         std::equal(a.row(index).gain, a.row(index).gain + max_terms, b.row(index).gain);
 }
 
 TEST(InverseListGrowth, GrowsAlikeInOneStepAndInMany) {

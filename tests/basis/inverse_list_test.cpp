@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "freqsynth/basis/inverse_list.h"
+#include "freqsynth/basis/dct.h"
 #include "freqsynth/basis/sample_sequence.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -178,10 +180,27 @@ TEST(InverseList, RowsAreTheGainsRoundedToFloat) {
     const detail::SampleRow& row = list.row(index);
     const auto gain = list.gain(index);
     ASSERT_EQ(row.terms, gain.size());
+    std::array<double, max_terms> terms;
+    evaluate_terms(list.position(index).s, list.position(index).t, terms);
     for (std::size_t i = 0; i < max_terms; ++i) {
-      ASSERT_EQ(row.gain[i], i < gain.size() ? static_cast<float>(gain[i]) : 0.0f);
+      const auto term = static_cast<float>(terms[i]);
+      ASSERT_EQ(row.gain[i], i < gain.size() ? static_cast<float>(gain[i]) : term);
+      ASSERT_EQ(row.fit[i], i < gain.size() ? term : 0.0f);
+      ASSERT_EQ(row.term(i), term);
     }
     ASSERT_EQ(row.border != nullptr, !list.border(index).empty());
+  }
+}
+
+TEST(InverseList, RowsThatLieSideBySideAreThoseOfTheirIndices) {
+  const InverseList list;
+  for (const std::size_t most : {1u, 2u, 7u, 64u, 200u}) {
+    for (std::size_t index = 0; index < 200;) {
+      const auto rows = list.rows(index, most);
+      ASSERT_GE(rows.size(), 1u);
+      ASSERT_LE(rows.size(), most);
+      for (const detail::SampleRow& row : rows) ASSERT_EQ(&row, &list.row(index++));
+    }
   }
 }
 

@@ -103,7 +103,7 @@ TEST_P(KernelVersion, RoundsProductsBeforeItAddsThem) {
 
     Absorption block(terms, 1, false, true, random);
     for (std::size_t i = 0; i < max_terms; ++i) {
-      volatile float product = block.values[0] * block.row.rest[i];
+      volatile float product = block.values[0] * block.row.gain[i];
       block.states[i] = i < terms ? 0 : -product;
     }
     block.run(*version_);

@@ -63,9 +63,9 @@ void expect_within(T actual, const Bounded<T>& expected, const std::string& what
   EXPECT_LE(std::abs(static_cast<Real>(actual) - expected.value), expected.error) << what;
 }
 
-// ------------------------------------------------------------------------------- absorb_sample
+// ------------------------------------------------------------------------------ absorb_samples
 
-TEST(Kernels, AbsorbSampleIsItsFormula) {
+TEST(Kernels, AbsorbSamplesIsItsFormula) {
   using Number = Bounded<float>;
   for_all_absorptions([](auto make) {
     const auto before = make();
@@ -84,7 +84,7 @@ TEST(Kernels, AbsorbSampleIsItsFormula) {
       const Number absorbed = before->known ? Number(before->values[c]) : prediction;
       const Number innovation = absorbed - prediction;
       for (std::size_t i = 0; i < max_terms; ++i) {
-        state[i] = state[i] + (i < row.terms ? innovation * row.gain[i] : absorbed * row.rest[i]);
+        state[i] = state[i] + (i < row.terms ? innovation * row.gain[i] : absorbed * row.gain[i]);
       }
       for (std::size_t p = 0; p < row.pixel_count; ++p) {
         const std::size_t place = 2 * c * max_terms + row.pixels[p];

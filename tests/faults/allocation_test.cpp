@@ -263,9 +263,9 @@ TEST(Allocation, AListKeepsInversesOnlyWhereTheyAreAskedFor) {
   const InverseList list;
   list.reserve(entries);
   const std::size_t plain = faults::bytes_in_use() - before;
-  // A row of 3 x 64 floats and a few more words, a position, 64 variances, a pointer: 1.3 kB; with
+  // A row of 2 x 64 floats and a few more words, a position, 64 variances, a pointer: 0.9 kB; with
   // it the builder, the positions of whole levels and the table of chunks.
-  EXPECT_LT(plain, entries * 1300 + 1'000'000);
+  EXPECT_LT(plain, entries * 900 + 1'000'000);
   static_cast<void>(list.inverse(entries - 1));
   const std::size_t one = faults::bytes_in_use() - before - plain;
   // A triangle of 64 x 65 / 2 doubles, and a state of two matrices for every 64 entries passed.

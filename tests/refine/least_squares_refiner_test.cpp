@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: MIT
 #include "freqsynth/refine/least_squares_refiner.h"
+#include "freqsynth/basis/aligned.h"
 #include "freqsynth/basis/sample_sequence.h"
 #include "freqsynth/refine/literal_refiner.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "support/oracles.h"
@@ -65,6 +71,47 @@ TEST(LeastSquaresRefiner, EqualsTheLiteralPath) {
     }
     ASSERT_NO_FATAL_FAILURE(
         expect_near(block.coefficients(), expected, tolerance(block.samples())));
+  }
+}
+
+TEST(LeastSquaresRefiner, SamplesTogetherAreThoseOneByOneToTheBit) {
+  constexpr std::size_t samples = 300;
+  for (const std::size_t channels : {1u, 2u, 3u, 4u, 5u, 9u}) {
+    for (const std::size_t alone : {0u, 1u, 50u}) {
+      const LeastSquaresRefiner refiner(shared_list(), channels);
+      oracle::Random random(static_cast<unsigned>(100 * channels + alone));
+      std::vector<float> values(samples * channels);
+      for (float& value : values) value = random.value();
+      // Some that come alone are not usable; a channel may have had none that is.
+      for (std::size_t i = 0; i < alone * channels; ++i) {
+        if (random.below(10) < 3 || i % channels == channels / 2) values[i] = nan;
+      }
+      detail::AlignedVector<float> together(refiner.state_size()), single(refiner.state_size());
+      refiner.reset(together.data());
+      refiner.reset(single.data());
+      std::vector<float> changes(samples), expected(samples);
+      for (std::size_t n = 0; n < samples; ++n) {
+        expected[n] = refiner.absorb(single.data(), n, values.data() + n * channels);
+      }
+      for (std::size_t n = 0; n < samples;) {
+        // Some go from one part of the list to the next.
+        std::size_t count = std::min(1 + random.below(40), samples - n);
+        if (n < alone) {
+          count = 1;
+          changes[n] = refiner.absorb(together.data(), n, values.data() + n * channels);
+        } else {
+          refiner.absorb(together.data(), n, values.data() + n * channels,
+                         std::span(changes).subspan(n, count));
+        }
+        n += count;
+      }
+      const auto same = [](float a, float b) {
+        return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
+      };
+      EXPECT_TRUE(std::equal(together.begin(), together.end(), single.begin(), same))
+          << channels << " channels, " << alone << " samples alone";
+      EXPECT_TRUE(std::equal(changes.begin(), changes.end(), expected.begin(), same));
+    }
   }
 }
 

@@ -54,8 +54,8 @@ struct Absorption {
         known(with_values) {
     row.terms = static_cast<std::uint32_t>(terms);
     for (std::size_t i = 0; i < max_terms; ++i) {
-      (i < terms ? row.fit : row.rest)[i] = random.value();
-      if (i < terms) row.gain[i] = random.value();
+      row.gain[i] = random.value();
+      if (i < terms) row.fit[i] = random.value();
       if (i < terms) border.b[i] = random.value();
       if (i < terms) border.step[i] = random.value();
     }
@@ -78,8 +78,8 @@ struct Absorption {
   }
 
   void run(const Kernels& kernels) {
-    change = kernels.absorb_sample(row, states.data(), sums.data(), residuals.data(),
-                                   known ? values.data() : nullptr, weights.data(), channels);
+    kernels.absorb_samples(&row, 1, states.data(), sums.data(), residuals.data(),
+                           known ? values.data() : nullptr, weights.data(), channels, &change);
   }
 
   SampleRow row;
@@ -96,7 +96,7 @@ struct Absorption {
 template <class Each>
 void for_all_absorptions(Each each) {
   for (std::size_t terms = 1; terms <= max_terms; ++terms) {
-    for (std::size_t channels = 0; channels <= 4; ++channels) {
+    for (std::size_t channels = 0; channels <= 5; ++channels) {
       for (const bool border : {false, true}) {
         for (const bool values : {false, true}) {
           if (border && terms == max_terms) continue;

@@ -10,6 +10,7 @@
 #include <array>
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -23,7 +24,7 @@ namespace freqsynth {
 /// The list: grown lazily, each entry built once in double and never moved. All members may be
 /// called from several threads; entries that exist are read without a lock.
 ///
-/// Each entry keeps what a synthesis reads, about 1.3 kB. J^-1 and the vectors in double, up to 18
+/// Each entry keeps what a synthesis reads, 0.9 kB. J^-1 and the vectors in double, up to 18
 /// kB, are computed when they are asked for, and kept.
 ///
 /// When memory runs out a member throws std::bad_alloc, and the list is as it was: it can be asked
@@ -58,6 +59,9 @@ class FREQSYNTH_API InverseList {
   [[nodiscard]] std::span<const float, max_terms> variances(std::size_t index) const;
   /// What the hot path reads: gains rounded to float.
   [[nodiscard]] const detail::SampleRow& row(std::size_t index) const;
+  /// The same of `index` and those after it, side by side: as many as lie there, at most `most`,
+  /// which is at least 1.
+  [[nodiscard]] std::span<const detail::SampleRow> rows(std::size_t index, std::size_t most) const;
 
   // In double, computed on demand: at most 64 updates of J^-1 at the first call for an index.
 
@@ -89,15 +93,11 @@ class FREQSYNTH_API InverseList {
 };
 
 struct InverseList::Chunk {
-  struct Rest {
-    std::size_t terms = 0;
-    std::array<float, max_terms> variances;
-    std::atomic<const Exact*> exact{nullptr};
-  };
-
   detail::SampleRow rows[chunk_size];
   SequencePosition positions[chunk_size];
-  Rest rest[chunk_size];
+  std::uint8_t terms[chunk_size];
+  std::array<float, max_terms> variances[chunk_size];
+  std::atomic<const Exact*> exact[chunk_size] = {};
 
   Chunk() = default;
   Chunk(const Chunk&) = delete;
@@ -120,13 +120,19 @@ struct InverseList::Chunk {
   return chunk_of(index).positions[index % chunk_size];
 }
 [[gnu::always_inline]] inline std::size_t InverseList::terms(std::size_t index) const {
-  return chunk_of(index).rest[index % chunk_size].terms;
+  return chunk_of(index).terms[index % chunk_size];
 }
 inline std::span<const float, max_terms> InverseList::variances(std::size_t index) const {
-  return chunk_of(index).rest[index % chunk_size].variances;
+  return chunk_of(index).variances[index % chunk_size];
 }
 [[gnu::always_inline]] inline const detail::SampleRow& InverseList::row(std::size_t index) const {
   return chunk_of(index).rows[index % chunk_size];
+}
+[[gnu::always_inline]] inline std::span<const detail::SampleRow> InverseList::rows(
+    std::size_t index, std::size_t most) const {
+  const std::size_t slot = index % chunk_size;
+  const std::size_t count = most < chunk_size - slot ? most : chunk_size - slot;
+  return {chunk_of(index + count - 1).rows + slot, count};
 }
 
 }  // namespace freqsynth

@@ -15,6 +15,7 @@
 #include "freqsynth/basis/edge_spectrum.h"
 #include "freqsynth/basis/float_bits.h"
 #include "freqsynth/basis/inverse_list.h"
+#include "freqsynth/basis/inverse_list_exact.inl"
 #include "freqsynth/basis/normal_inverse.h"
 
 namespace freqsynth {
@@ -77,17 +78,17 @@ inline void set_pixels(const SequencePosition& position, SampleRow& row) {
       row.pixels[row.pixel_count++] = static_cast<std::uint8_t>(pixel);
     }
   }
+  // Those without a share lie in the same lines of the cache.
+  for (std::size_t p = row.pixel_count; p < 4; ++p) {
+    row.pixels[p] = row.pixels[p % row.pixel_count];
+    row.pixel_weights[p] = 0;
+  }
 }
 
 }  // namespace detail
 
-/// What an entry is in double.
-struct InverseList::Exact {
-  std::vector<double> inverse, gain, border;
-};
-
 FREQSYNTH_INLINE InverseList::Chunk::~Chunk() {
-  for (const Rest& one : rest) delete one.exact.load(std::memory_order_relaxed);
+  for (const auto& one : exact) delete one.load(std::memory_order_relaxed);
   for (const detail::SampleRow& row : rows) delete row.border;
 }
 
@@ -101,7 +102,7 @@ struct InverseList::Builder {
   void build(Chunk& chunk, std::size_t index);
   void border(std::size_t terms, std::span<const double> gain, detail::SampleRow& row,
               std::unique_ptr<detail::BorderRow> memory);
-  void set_variances(Chunk::Rest& rest) const;
+  void set_variances(std::span<float, max_terms> variances) const;
 
   double samples_per_term;
   std::size_t most_terms;
@@ -138,9 +139,9 @@ FREQSYNTH_INLINE void InverseList::Builder::build(Chunk& chunk, std::size_t inde
   row.terms = static_cast<std::uint32_t>(terms);
   double change = 0;
   for (std::size_t i = 0; i < max_terms; ++i) {
-    (i < terms ? row.fit : row.rest)[i] = static_cast<float>(a[i]);
+    row.gain[i] = static_cast<float>(i < terms ? gain[i] : a[i]);
     if (i >= terms) continue;
-    row.gain[i] = static_cast<float>(gain[i]);
+    row.fit[i] = static_cast<float>(a[i]);
     change += std::pow(detail::pixel_change(gain[i], i), 2);
   }
   row.change = static_cast<float>(change);
@@ -149,7 +150,8 @@ FREQSYNTH_INLINE void InverseList::Builder::build(Chunk& chunk, std::size_t inde
   row.residual = static_cast<float>(1 - fitted);
 
   if (term_is_due) border(terms, gain, row, std::move(memory));
-  set_variances(chunk.rest[slot]);
+  chunk.terms[slot] = static_cast<std::uint8_t>(normal.terms());
+  set_variances(chunk.variances[slot]);
 }
 
 /// Adds a term, if the samples determine it.
@@ -179,96 +181,16 @@ FREQSYNTH_INLINE void InverseList::Builder::border(std::size_t terms, std::span<
   row.border = memory.release();
 }
 
-FREQSYNTH_INLINE void InverseList::Builder::set_variances(Chunk::Rest& rest) const {
-  rest.terms = normal.terms();
+FREQSYNTH_INLINE void InverseList::Builder::set_variances(
+    std::span<float, max_terms> variances) const {
   const detail::EdgeSpectrum& spectrum = detail::edge_spectrum();
   for (std::size_t i = 0; i < max_terms; ++i) {
     // A term in the fit has the variance of least squares. One that is not is wrong by all that it
     // holds, a share of what the fit leaves over.
-    rest.variances[i] = static_cast<float>(
-        i < rest.terms ? normal.inverse()(i, i) / std::pow(amplitude_of_coefficient(i), 2)
-                       : max_terms * spectrum.energy[i] / spectrum.tail[rest.terms]);
+    variances[i] = static_cast<float>(
+        i < normal.terms() ? normal.inverse()(i, i) / std::pow(amplitude_of_coefficient(i), 2)
+                           : max_terms * spectrum.energy[i] / spectrum.tail[normal.terms()]);
   }
-}
-
-/// The same updates once more, for those who ask for J^-1 itself.
-struct InverseList::Replay {
-  std::mutex asking;
-  /// State before the first entry of each chunk that was passed. Entry 0 starts from nothing.
-  std::vector<std::unique_ptr<const NormalInverse>> states;
-  NormalInverse normal;  // before entry `next`
-  std::size_t next = 0;
-
-  void step(const Chunk& chunk, Exact* keep);
-};
-
-/// Goes on by one entry, which it writes to `keep` unless that is null; its vectors have room.
-FREQSYNTH_INLINE void InverseList::Replay::step(const Chunk& chunk, Exact* keep) {
-  const std::size_t slot = next % chunk_size;
-  std::array<double, max_terms> a, values;
-  evaluate_terms(chunk.positions[slot].s, chunk.positions[slot].t, a);
-  normal.add_sample(a);
-  std::size_t terms = normal.terms();
-  if (keep != nullptr) {
-    detail::multiply(normal.inverse().values.data(), a.data(), terms, values.data());
-    keep->gain.assign(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(terms));
-  }
-  if (chunk.rows[slot].border != nullptr) {
-    normal.add_term(std::span(values).first(terms));
-    if (keep != nullptr) {
-      keep->border.assign(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(terms));
-    }
-    ++terms;
-  }
-  ++next;
-  if (keep == nullptr) return;
-  const TermMatrix& inverse = normal.inverse();
-  for (std::size_t i = 0; i < terms; ++i) {
-    for (std::size_t j = 0; j <= i; ++j) {
-      keep->inverse.push_back(0.5 * (inverse(i, j) + inverse(j, i)));
-    }
-  }
-}
-
-FREQSYNTH_INLINE const InverseList::Exact& InverseList::exact(std::size_t index) const {
-  const Chunk& own = chunk_of(index);
-  std::atomic<const Exact*>& known =
-      chunks_[index / chunk_size].load(std::memory_order_relaxed)->rest[index % chunk_size].exact;
-  if (const Exact* entry = known.load(std::memory_order_acquire)) return *entry;
-
-  Replay& replay = *replay_;
-  const std::lock_guard lock(replay.asking);
-  if (const Exact* entry = known.load(std::memory_order_relaxed)) return *entry;
-  auto entry = std::make_unique<Exact>();
-  const std::size_t terms = own.rest[index % chunk_size].terms;
-  entry->inverse.reserve(terms * (terms + 1) / 2);
-  entry->gain.reserve(terms);
-  entry->border.reserve(terms);
-  // From the nearest state before it.
-  const std::size_t chunk = std::min(index / chunk_size, replay.states.size());
-  if (replay.next > index || replay.next < chunk * chunk_size) {
-    replay.normal = chunk == 0 ? NormalInverse() : *replay.states[chunk - 1];
-    replay.next = chunk * chunk_size;
-  }
-  while (replay.next <= index) {
-    const std::size_t at = replay.next;
-    if (at > 0 && at % chunk_size == 0 && replay.states.size() < at / chunk_size) {
-      replay.states.push_back(std::make_unique<const NormalInverse>(replay.normal));
-    }
-    replay.step(chunk_of(at), at == index ? entry.get() : nullptr);
-  }
-  known.store(entry.get(), std::memory_order_release);
-  return *entry.release();
-}
-
-FREQSYNTH_INLINE std::span<const double> InverseList::inverse(std::size_t index) const {
-  return exact(index).inverse;
-}
-FREQSYNTH_INLINE std::span<const double> InverseList::gain(std::size_t index) const {
-  return exact(index).gain;
-}
-FREQSYNTH_INLINE std::span<const double> InverseList::border(std::size_t index) const {
-  return exact(index).border;
 }
 
 FREQSYNTH_INLINE InverseList::InverseList(const InverseListSettings& settings)

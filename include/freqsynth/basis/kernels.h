@@ -26,39 +26,47 @@ struct alignas(64) BorderRow {
 
 /// Shared data to absorb the sample of one sequence index, rounded to float for the hot path.
 struct alignas(64) SampleRow {
-  float fit[max_terms] = {};          ///< term values at the position (eq. 28), zero beyond the fit
-  float gain[max_terms] = {};         ///< k = J^-1 A, zero beyond the fit
-  float rest[max_terms] = {};         ///< term values beyond the fit, zero within
+  float fit[max_terms] = {};  ///< term values at the position (eq. 28), zero beyond the fit
+  /// What a state gains: within the fit k = J^-1 A, per unit of the innovation; beyond it the term
+  /// values, per unit of the sample.
+  float gain[max_terms] = {};
   const BorderRow* border = nullptr;  ///< not null when a term is added after this sample
   std::uint32_t terms = 0;            ///< terms in the fit while the sample is absorbed
   float change = 0;                   ///< mean squared pixel change caused by `gain`
   float residual = 0;                 ///< 1 - A . k: share of the innovation that remains
-  float pixel_weights[4] = {};        ///< share of the sample that each of its pixels gets
+  float pixel_weights[4] = {};   ///< share of the sample that each of its pixels gets, 0 for none
   std::uint8_t pixel_count = 0;  ///< pixels of the block that get a share of the sample, up to 4
-  std::uint8_t pixels[4] = {};   ///< those pixels, row by row
+  std::uint8_t pixels[4] = {};   ///< those pixels, row by row; beyond them any
   /// The pixel that the sample lies in; none on the border between pixels.
   std::uint8_t own_pixel = no_pixel;
   float own_share = 0;  ///< 1 / number of the earlier samples with the same own pixel, 0 for none
 
   /// No pixel.
   static constexpr std::uint8_t no_pixel = max_terms;
+
+  /// Value of a term at the position.
+  [[nodiscard]] float term(std::size_t i) const { return i < terms ? fit[i] : gain[i]; }
 };
 
-/// Absorbs one sample into the states of all channels of a block.
+/// Absorbs samples that follow each other into the states of all channels of a block.
 ///
 /// A state is 64 floats, aligned to 32 bytes: the amplitudes X of the terms in the fit and, beyond
 /// them, the right-hand sides Y (eq. 23) of the terms that are not yet in it.
+/// \param rows      `count` of them
 /// \param states    channels x 64 floats
 /// \param sums      channels x 128 floats: for each pixel the weighted sum of its samples, and then
 ///                  for each pixel the sum of those that are its own
 /// \param residuals channels x 2 floats, kept up to date: the sum of squared residuals of the fit,
 ///                  and the greatest difference between a sample and the mean of the earlier ones
 ///                  that its pixel owns
-/// \param values    one finite value per channel; null to absorb the block's own prediction instead
+/// \param values    count x channels finite values; null to absorb the block's own predictions
+///                  instead
 /// \param weights   per channel: its weight in the result
-/// \return the weighted sum over channels of the mean squared change of the block's pixels
-using AbsorbSample = float(const SampleRow& row, float* states, float* sums, float* residuals,
-                           const float* values, const float* weights, std::size_t channels);
+/// \param changes   receives for each sample the weighted sum over channels of the mean squared
+///                  change of the block's pixels
+using AbsorbSamples = void(const SampleRow* rows, std::size_t count, float* states, float* sums,
+                           float* residuals, const float* values, const float* weights,
+                           std::size_t channels, float* changes);
 
 /// Powell's rank-one update, eqs. 29 and 33, of row-major matrices with a row stride of 64, aligned
 /// to 64 bytes. The leading terms x terms part of `inverse` is updated, and the leading
@@ -156,7 +164,7 @@ using HoldFlat = void(const float* means, std::size_t stride, float alike, float
 /// One version of all kernels.
 struct Kernels {
   const char* name;  ///< "plain", "avx2" or "avx512"
-  AbsorbSample* absorb_sample;
+  AbsorbSamples* absorb_samples;
   RankOneUpdate* rank_one_update;
   AddOuterProduct* add_outer_product;
   Multiply* multiply;
@@ -182,7 +190,7 @@ struct Kernels {
 /// The best of them, found at the first call; the functions below are its.
 [[nodiscard]] FREQSYNTH_API const Kernels& chosen_kernels();
 
-FREQSYNTH_API AbsorbSample absorb_sample;
+FREQSYNTH_API AbsorbSamples absorb_samples;
 FREQSYNTH_API RankOneUpdate rank_one_update;
 FREQSYNTH_API AddOuterProduct add_outer_product;
 FREQSYNTH_API Multiply multiply;

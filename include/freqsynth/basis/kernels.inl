@@ -75,7 +75,7 @@ namespace freqsynth::detail {
 
 inline constexpr Kernels plain_kernels = {
     "plain",
-    &plain::absorb_sample,
+    &plain::absorb_samples,
     &plain::rank_one_update,
     &plain::add_outer_product,
     &plain::multiply,
@@ -97,7 +97,7 @@ inline constexpr Kernels plain_kernels = {
 #if defined(FREQSYNTH_KERNELS_AVX2)
 inline constexpr Kernels avx2_kernels = {
     "avx2",
-    &avx2::absorb_sample,
+    &avx2::absorb_samples,
     &avx2::rank_one_update,
     &avx2::add_outer_product,
     &avx2::multiply,
@@ -178,7 +178,7 @@ struct Undecided<kernel> {
 /// initialisation can be wrong. Threads that choose at the same time choose the same.
 inline constexpr Kernels undecided_kernels = {
     "undecided",
-    &Undecided<&Kernels::absorb_sample>::call,
+    &Undecided<&Kernels::absorb_samples>::call,
     &Undecided<&Kernels::rank_one_update>::call,
     &Undecided<&Kernels::add_outer_product>::call,
     &Undecided<&Kernels::multiply>::call,

@@ -6,75 +6,13 @@
 // Nothing here calls a function that is not forced inline: it would be compiled for another
 // instruction set. All versions add in the same order, whatever the size of their registers.
 
+#include "freqsynth/basis/kernels_absorb.inl"
 #include "freqsynth/basis/kernels_pack.inl"
 #include "freqsynth/basis/kernels_picture.inl"
 #include "freqsynth/basis/kernels_ranges.inl"
 #include "freqsynth/basis/kernels_update.inl"
 
 namespace freqsynth::detail::FREQSYNTH_KERNEL_SET {
-
-FREQSYNTH_KERNEL
-float absorb_sample(const SampleRow& row, float* states, float* sums, float* residuals,
-                    const float* values, const float* weights, std::size_t channels) {
-  FREQSYNTH_KERNEL_BEGIN
-  const std::size_t fit_end = round_up(row.terms, 8);
-  const std::size_t rest_begin = row.terms / 8 * 8;
-  const BorderRow* border = row.border;
-  float change = 0;
-  for (std::size_t c = 0; c < channels; ++c) {
-    float* state = states + c * max_terms;
-    Float8 even = {}, odd = {};
-    std::size_t i = 0;
-    for (; i + 16 <= fit_end; i += 16) {
-      even += Float8::load(row.fit + i) * Float8::load(state + i);
-      odd += Float8::load(row.fit + i + 8) * Float8::load(state + i + 8);
-    }
-    if (i < fit_end) even += Float8::load(row.fit + i) * Float8::load(state + i);
-    const float prediction = sum_of(even + odd);
-    const float absorbed = values != nullptr ? values[c] : prediction;
-    const float innovation = absorbed - prediction;
-    for (i = 0; i < fit_end; i += 8) {
-      (innovation * Float8::load(row.gain + i)).add_to(state + i);
-    }
-    for (i = rest_begin; i < max_terms; i += 8) {
-      (absorbed * Float8::load(row.rest + i)).add_to(state + i);
-    }
-    float* shares = sums + 2 * c * max_terms;
-    for (std::size_t p = 0; p < row.pixel_count; ++p) {
-      shares[row.pixels[p]] += absorbed * row.pixel_weights[p];
-    }
-    if (row.own_pixel != SampleRow::no_pixel) {
-      float& own = shares[max_terms + row.own_pixel];
-      if (row.own_share > 0) {
-        const float off = absorbed - own * row.own_share;
-        const float distance = off < 0 ? -off : off;
-        if (distance > residuals[2 * c + 1]) residuals[2 * c + 1] = distance;
-      }
-      own += absorbed;
-    }
-    float squared = row.change * innovation * innovation;
-    float residual = residuals[2 * c] + row.residual * innovation * innovation;
-    if (border != nullptr) {
-      // Eq. 37 applied to Y: the new amplitude, and what it takes from the old ones.
-      Float8 sum = {};
-      for (i = 0; i < fit_end; i += 8) {
-        sum += Float8::load(border->b + i) * Float8::load(state + i);
-      }
-      const float added = (state[row.terms] - sum_of(sum)) * border->inverse_delta;
-      state[row.terms] = 0;
-      for (i = 0; i <= row.terms; i += 8) {
-        (added * Float8::load(border->step + i)).add_to(state + i);
-      }
-      squared += added * (border->change * added + 2 * border->cross * innovation);
-      // Rounding may take a little more than there is.
-      residual -= border->delta * added * added;
-      if (residual < 0) residual = 0;
-    }
-    residuals[2 * c] = residual;
-    change += weights[c] * squared;
-  }
-  return change;
-}
 
 FREQSYNTH_KERNEL
 void add_outer_product(double* matrix, const double* x, double scale, std::size_t terms) {

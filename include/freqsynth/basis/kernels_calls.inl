@@ -4,10 +4,11 @@
 
 namespace freqsynth::detail {
 
-FREQSYNTH_INLINE float absorb_sample(const SampleRow& row, float* states, float* sums,
-                                     float* residuals, const float* values, const float* weights,
-                                     std::size_t channels) {
-  return kernels().absorb_sample(row, states, sums, residuals, values, weights, channels);
+FREQSYNTH_INLINE void absorb_samples(const SampleRow* rows, std::size_t count, float* states,
+                                     float* sums, float* residuals, const float* values,
+                                     const float* weights, std::size_t channels, float* changes) {
+  kernels().absorb_samples(rows, count, states, sums, residuals, values, weights, channels,
+                           changes);
 }
 
 FREQSYNTH_INLINE void rank_one_update(double* inverse, double* normal, const double* a,

@@ -4,24 +4,6 @@
 
 namespace freqsynth::detail::FREQSYNTH_KERNEL_SET {
 
-/// The upper half of 16 lanes added to the lower one.
-template <class T>
-FREQSYNTH_KERNEL_INLINE Pack<T, 8> folded(const Pack<T, 16>& a) {
-  using Half = Pack<T, 8>;
-  using Register = typename Half::Register;
-  Half half;
-  if constexpr (Pack<T, 16>::count == 1) {
-    const auto& x = a.part[0];
-    half.part[0] = Register{x[0], x[1], x[2], x[3], x[4], x[5], x[6], x[7]} +
-                   Register{x[8], x[9], x[10], x[11], x[12], x[13], x[14], x[15]};
-  } else {
-    for (std::size_t k = 0; k < Half::count; ++k) {
-      half.part[k] = a.part[k] + a.part[k + Half::count];
-    }
-  }
-  return half;
-}
-
 FREQSYNTH_KERNEL
 void residual_means(const float* matrix, const float* amplitudes, const float* sums,
                     const float* shares, float* out) {

@@ -15,6 +15,7 @@
 #include "freqsynth/basis/aligned.h"
 #include "freqsynth/basis/config.h"
 #include "freqsynth/basis/float_bits.h"
+#include "freqsynth/basis/large_pages.h"
 #include "freqsynth/engine/state_keeper.h"
 #include "freqsynth/engine/surprise_book.h"
 #include "freqsynth/refine/gap_log.h"
@@ -61,7 +62,11 @@ class BlockStore {
   void absorb(std::size_t block, std::span<float> changes, Values&& values);
   /// Hints that a block will take in `count` samples from `index` on soon.
   void prefetch(std::size_t block, std::size_t index, std::size_t count) const {
-    for (std::size_t i = 0; i < count; ++i) refiner_.prefetch(state(block), index + i);
+    if constexpr (RefinesRuns<R>) {
+      refiner_.prefetch(state(block), index, count);
+    } else {
+      for (std::size_t i = 0; i < count; ++i) refiner_.prefetch(state(block), index + i);
+    }
   }
 
   // What the refiner says of a block; see the concept. Predictions in the place of values that are
@@ -148,7 +153,8 @@ class BlockStore {
     return refiner_.freedom(counts_[block]) / freedom(block);
   }
   bool to_units(const float* values, float* out);
-  void absorb_run(std::size_t block, const float* values, std::span<float> changes);
+  bool note_values(const float* values, float* out);
+  void absorb_run(std::size_t block, const float* values, std::span<float> changes, bool usable);
   void note_gaps(std::size_t block, std::size_t index, const float* values);
   [[nodiscard]] float squares(std::size_t block, std::size_t channel) const;
   void remember(std::size_t block);
@@ -157,7 +163,7 @@ class BlockStore {
   R refiner_;
   std::size_t most_samples_;
   std::size_t stride_;  // whole cache lines
-  detail::AlignedVector<float> states_;
+  detail::LargeVector<float> states_;
   mutable detail::StateKeeper* keeper_ = nullptr;
   std::vector<std::uint32_t> counts_;
   std::vector<std::uint32_t> missing_;  // of these, without a usable value where it counts
@@ -167,11 +173,13 @@ class BlockStore {
   std::vector<int> exponents_;
   std::vector<float> factors_;          // of a value: 1 / unit
   std::vector<std::uint8_t> negative_;  // 1: a channel's values are not all positive or 0
+  std::vector<std::uint32_t> looks_;    // bits of its values that may tell news
   std::vector<float> values_;           // of `most_together` samples in the channels' units
   SurpriseBook surprises_;
   std::vector<float> before_;  // of each channel, see remember()
 
   static constexpr std::size_t most_together = 16;
+  static constexpr std::uint32_t all_bits = 0xffffffffu, without_sign = 0x7fffffffu;
 };
 
 // ------------------------------------------------------------------------------------ definitions
@@ -188,12 +196,17 @@ BlockStore<R>::BlockStore(R refiner, std::size_t blocks, std::size_t most_sample
   exponents_.assign(refiner_.channels(), 0);
   factors_.assign(refiner_.channels(), 1.0f);
   negative_.resize(refiner_.channels());
+  looks_.assign(refiner_.channels(), all_bits);
   values_.resize(most_together * refiner_.channels());
   constexpr std::size_t line = detail::alignment / sizeof(float);
   stride_ = (refiner_.state_size() + line - 1) / line * line;
   states_.resize(blocks * stride_);
   untouched_ = blocks;
-  for (std::size_t b = 0; b < blocks; ++b) refiner_.reset(states_.data() + b * stride_);
+  for (std::size_t b = 0; b < blocks; ++b) {
+    float* state = states_.data() + b * stride_;
+    refiner_.reset(state);
+    std::fill(state + refiner_.state_size(), state + stride_, 0.0f);
+  }
 }
 
 template <Refiner R>

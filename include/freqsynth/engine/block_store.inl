@@ -21,45 +21,68 @@ void BlockStore<R>::absorb(std::size_t block, std::span<float> changes, Values&&
   for (std::size_t first = 0; first < changes.size(); first += most_together) {
     const std::size_t together = std::min(changes.size() - first, most_together);
     const std::span<float> part = changes.subspan(first, together);
-    bool bad = gaps_.any(block);
-    for (std::size_t i = 0; i < together; ++i) {
-      bad = to_units(values(first + i), values_.data() + i * factors_.size()) || bad;
+    bool plain = !gaps_.any(block);
+    float* out = values_.data();
+    for (std::size_t i = 0; i < together; ++i, out += factors_.size()) {
+      plain = to_units(values(first + i), out) && plain;
     }
-    if (!bad) {
-      absorb_run(block, values_.data(), part);
+    if (plain) [[likely]] {
+      absorb_run(block, values_.data(), part, true);
     } else {
       for (std::size_t i = 0; i < together; ++i) {
         const float* one = values_.data() + i * factors_.size();
         note_gaps(block, counts_[block], one);
-        absorb_run(block, one, part.subspan(i, 1));
+        absorb_run(block, one, part.subspan(i, 1), false);
       }
     }
   }
 }
 
-/// \return whether one of the values is not usable in the host's unit, and so not in any
+/// \return whether all values are usable in the host's unit, and so in any
 template <Refiner R>
 bool BlockStore<R>::to_units(const float* values, float* out) {
+  // Seen as bits, what is usable and not new is not more than some number.
+  constexpr auto most = std::bit_cast<std::uint32_t>(max_sample_magnitude);
+  const float* const factors = factors_.data();
+  const std::uint32_t* const looks = looks_.data();
+  const std::size_t channels = factors_.size();
+  std::uint32_t news = 0;
+  for (std::size_t c = 0; c < channels; ++c) {
+    const float value = values[c];
+    out[c] = value * factors[c];
+    news |= (std::bit_cast<std::uint32_t>(value) & looks[c]) > most ? 1u : 0u;
+  }
+  return news == 0 ? true : note_values(values, out);
+}
+
+/// The same where a value is not usable, or a channel's first one below zero.
+template <Refiner R>
+bool BlockStore<R>::note_values(const float* values, float* out) {
   bool bad = false;
   for (std::size_t c = 0; c < factors_.size(); ++c) {
     const bool usable = is_usable_sample(values[c]);
     out[c] = usable ? values[c] * factors_[c] : std::bit_cast<float>(0x7fc00000u);
     bad = bad || !usable;
-    if (usable && values[c] < 0) negative_[c] = 1;
+    if (usable && values[c] < 0) {
+      negative_[c] = 1;
+      looks_[c] = without_sign;
+    }
   }
-  return bad;
+  return !bad;
 }
 
 template <Refiner R>
-void BlockStore<R>::absorb_run(std::size_t block, const float* values, std::span<float> changes) {
+void BlockStore<R>::absorb_run(std::size_t block, const float* values, std::span<float> changes,
+                               bool usable) {
   float* state = states_.data() + block * stride_;
   remember(block);
+  bool together = false;
   if constexpr (RefinesRuns<R>) {
-    refiner_.absorb(state, counts_[block], values, changes);
-  } else {
-    for (std::size_t i = 0; i < changes.size(); ++i) {
-      changes[i] = refiner_.absorb(state, counts_[block] + i, values + i * factors_.size());
-    }
+    together = usable;
+    if (together) refiner_.absorb(state, counts_[block], values, changes);
+  }
+  for (std::size_t i = 0; !together && i < changes.size(); ++i) {
+    changes[i] = refiner_.absorb(state, counts_[block] + i, values + i * factors_.size());
   }
   std::uint32_t& count = counts_[block];
   const std::uint32_t before = count;

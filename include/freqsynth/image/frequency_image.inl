@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "freqsynth/basis/archive.h"
+#include "freqsynth/basis/large_pages.h"
 #include "freqsynth/engine/block_grid.h"
 #include "freqsynth/image/frequency_image.h"
 
@@ -17,7 +18,10 @@ FREQSYNTH_INLINE FrequencyImage::FrequencyImage(std::size_t width, std::size_t h
     : meaning_(meaning) {
   const BlockGrid grid = BlockGrid::of(width, height, channels);
   size_ = {width, height, channels, grid.blocks_x, grid.blocks_y};
-  coefficients_.resize(grid.blocks_x * grid.blocks_y * channels * max_terms);
+  const std::size_t numbers = grid.blocks_x * grid.blocks_y * channels * max_terms;
+  coefficients_.reserve(numbers);
+  detail::ask_for_large_pages(coefficients_.data(), numbers * sizeof(float));
+  coefficients_.resize(numbers);
   samples_.resize(grid.blocks_x * grid.blocks_y);
   non_negative_.resize(channels);
 }

@@ -89,7 +89,7 @@ FREQSYNTH_INLINE void PixelFinisher::advance(std::size_t samples) {
 FREQSYNTH_INLINE void PixelFinisher::add_terms(const detail::SampleRow& row, float sign) {
   std::array<float, max_terms> terms;
   for (std::size_t i = 0; i < max_terms; ++i) {
-    terms[detail::zigzag_to_row_major[i]] = row.fit[i] + row.rest[i];
+    terms[detail::zigzag_to_row_major[i]] = row.term(i);
   }
   for (std::size_t p = 0; p < row.pixel_count; ++p) {
     float* sums = sums_.data() + row.pixels[p] * max_terms;

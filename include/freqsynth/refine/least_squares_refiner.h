@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -65,11 +66,13 @@ class FREQSYNTH_API LeastSquaresRefiner {
   float absorb(float* state, std::size_t index, const float* values) const;
 
   /// The same for as many samples from `index` on as there are `changes`, which receive what
-  /// absorb() returns. The values of a sample follow those of the one before.
+  /// absorb() returns. All values are usable; those of a sample follow those of the one before.
   void absorb(float* state, std::size_t index, const float* values, std::span<float> changes) const;
 
   /// Asks for the memory that absorb() of sample `index` will write.
-  void prefetch(const float* state, std::size_t index) const;
+  void prefetch(const float* state, std::size_t index) const { prefetch(state, index, 1); }
+  /// The same for `count` samples from `index` on.
+  void prefetch(const float* state, std::size_t index, std::size_t count) const;
 
   /// Number of samples without that of the terms fit to them, at least 1.
   [[nodiscard]] float freedom(std::size_t samples) const;
@@ -126,6 +129,7 @@ class FREQSYNTH_API LeastSquaresRefiner {
   [[nodiscard]] BlockFit fit(const float* state, std::size_t samples, std::size_t channel) const;
 
  private:
+  [[nodiscard]] bool started(const float* state) const;
   float absorb_channelwise(float* state, std::size_t index, const float* values) const;
   [[nodiscard]] const float* sums(const float* state, std::size_t channel) const {
     return state + (channels_ + 2 * channel) * max_terms;
@@ -140,46 +144,80 @@ class FREQSYNTH_API LeastSquaresRefiner {
 
 // ------------------------------------------------------------------------------------ definitions
 
+/// Whether all channels have had a usable value.
+inline bool LeastSquaresRefiner::started(const float* state) const {
+  bool all = true;
+  for (std::size_t c = 0; c < channels_; ++c) all = all && !detail::is_nan(state[c * max_terms]);
+  return all;
+}
+
 inline float LeastSquaresRefiner::absorb(float* state, std::size_t index,
                                          const float* values) const {
   for (std::size_t c = 0; c < channels_; ++c) {
-    if (detail::is_nan(state[c * max_terms]) || !is_usable_sample(values[c])) [[unlikely]] {
+    if (!is_usable_sample(values[c])) [[unlikely]] {
       return absorb_channelwise(state, index, values);
     }
   }
-  return detail::absorb_sample(list_->row(index), state, state + channels_ * max_terms,
-                               state + 3 * channels_ * max_terms, values, weights_.data(),
-                               channels_);
+  float change = 0;
+  absorb(state, index, values, std::span<float>(&change, 1));
+  return change;
 }
 
 inline void LeastSquaresRefiner::absorb(float* state, std::size_t index, const float* values,
                                         std::span<float> changes) const {
-  for (float& change : changes) {
-    change = absorb(state, index++, values);
+  float* change = changes.data();
+  std::size_t left = changes.size();
+  if (left > 0 && !started(state)) [[unlikely]] {
+    *change++ = absorb_channelwise(state, index++, values);
     values += channels_;
+    --left;
+  }
+  while (left > 0) {
+    const std::span<const detail::SampleRow> rows = list_->rows(index, left);
+    detail::absorb_samples(rows.data(), rows.size(), state, state + channels_ * max_terms,
+                           state + 3 * channels_ * max_terms, values, weights_.data(), channels_,
+                           change);
+    index += rows.size();
+    values += rows.size() * channels_;
+    change += rows.size();
+    left -= rows.size();
   }
 }
 
-inline void LeastSquaresRefiner::prefetch(const float* state, std::size_t index) const {
+inline void LeastSquaresRefiner::prefetch([[maybe_unused]] const float* state,
+                                          [[maybe_unused]] std::size_t index,
+                                          [[maybe_unused]] std::size_t count) const {
 #if defined(__GNUC__)
   constexpr std::size_t line = 16;  // floats
-  const std::size_t pixel = list_->row(index).pixels[0];
   for (std::size_t at = 0; at < channels_ * max_terms; at += line) {
     __builtin_prefetch(state + at, 1);
   }
-  for (std::size_t c = 0; c < channels_; ++c) {
-    __builtin_prefetch(sums(state, c) + pixel, 1);
-    __builtin_prefetch(sums(state, c) + max_terms + pixel, 1);
-  }
   __builtin_prefetch(state + 3 * channels_ * max_terms, 1);
-#else
-  static_cast<void>(state + index);
+  // Pixels that a sample has a share in lie in at most two lines. Several samples are all over the
+  // block.
+  constexpr std::size_t many = 3;
+  if (count >= many) {
+    for (std::size_t at = 0; at < 2 * channels_ * max_terms; at += line) {
+      __builtin_prefetch(sums(state, 0) + at, 1);
+    }
+    return;
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    const detail::SampleRow& row = list_->row(index + i);
+    for (std::size_t c = 0; c < channels_; ++c) {
+      __builtin_prefetch(sums(state, c) + row.pixels[0], 1);
+      __builtin_prefetch(sums(state, c) + row.pixels[3], 1);
+      __builtin_prefetch(sums(state, c) + max_terms + row.pixels[0], 1);
+    }
+  }
 #endif
 }
 
 inline float LeastSquaresRefiner::freedom(std::size_t samples) const {
   const std::size_t fit = samples > 0 ? terms(samples) : 0;
-  return static_cast<float>(samples > fit ? samples - fit : 1);
+  const std::size_t free = samples > fit ? samples - fit : 1;
+  // Processors convert numbers with a sign at once, others step by step.
+  return static_cast<float>(static_cast<std::int64_t>(free));
 }
 
 inline float LeastSquaresRefiner::residual(const float* state, std::size_t samples) const {

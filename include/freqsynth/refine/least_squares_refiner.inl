@@ -23,15 +23,14 @@ class GapSolver {
       : terms_(terms), matrix_(terms * terms), side_(terms), change_(terms) {}
 
   void add(const SampleRow& row) {
+    double a[max_terms];
     for (std::size_t i = 0; i < terms_; ++i) {
-      const double a = double{row.fit[i] + row.rest[i]};
-      for (std::size_t k = 0; k <= i; ++k) {
-        matrix_[i * terms_ + k] += a * double{row.fit[k] + row.rest[k]};
-      }
+      a[i] = double{row.term(i)};
+      for (std::size_t k = 0; k <= i; ++k) matrix_[i * terms_ + k] += a[i] * a[k];
     }
   }
   void take_off(const SampleRow& row, double off) {
-    for (std::size_t i = 0; i < terms_; ++i) side_[i] -= double{row.fit[i] + row.rest[i]} * off;
+    for (std::size_t i = 0; i < terms_; ++i) side_[i] -= double{row.term(i)} * off;
   }
 
   /// Finds the changes of the amplitudes.
@@ -133,9 +132,11 @@ FREQSYNTH_INLINE float LeastSquaresRefiner::absorb_channelwise(float* state, std
     float* sums = state + (channels_ + 2 * c) * max_terms;
     const bool usable = is_usable_sample(values[c]);
     if (!detail::is_nan(own[0])) {
-      change += detail::absorb_sample(list_->row(index), own, sums,
-                                      state + 3 * channels_ * max_terms + 2 * c,
-                                      usable ? values + c : nullptr, weights_.data() + c, 1);
+      float own_change = 0;
+      detail::absorb_samples(&list_->row(index), 1, own, sums,
+                             state + 3 * channels_ * max_terms + 2 * c,
+                             usable ? values + c : nullptr, weights_.data() + c, 1, &own_change);
+      change += own_change;
     } else if (usable) {
       start(own, sums, index, values[c]);
     }
@@ -150,7 +151,7 @@ FREQSYNTH_INLINE void LeastSquaresRefiner::start(float* state, float* sums, std:
   const std::size_t terms = list_->terms(index);
   for (std::size_t j = 0; j <= index; ++j) {
     const detail::SampleRow& row = list_->row(j);
-    for (std::size_t i = terms; i < max_terms; ++i) state[i] += value * (row.fit[i] + row.rest[i]);
+    for (std::size_t i = terms; i < max_terms; ++i) state[i] += value * (row.term(i));
     for (std::size_t p = 0; p < row.pixel_count; ++p) {
       sums[row.pixels[p]] += value * row.pixel_weights[p];
     }
@@ -195,7 +196,7 @@ FREQSYNTH_INLINE BlockFit LeastSquaresRefiner::fit(const float* state, std::size
   for (const Gap& one : gaps) {
     double off = double{one.value};
     const detail::SampleRow& row = list_->row(one.sample);
-    for (std::size_t i = 0; i < all; ++i) off -= double{row.fit[i] + row.rest[i]} * double{own[i]};
+    for (std::size_t i = 0; i < all; ++i) off -= double{row.term(i)} * double{own[i]};
     solver.take_off(row, off);
     squares -= off * off;
   }
