@@ -27,7 +27,8 @@ struct RandomSynthesis {
   unsigned abandon_of = 0;  // of so many requests one is never answered; 0: none
   float level = 0;
 
-  explicit RandomSynthesis(unsigned number);
+  /// \param larger  so many times as wide and high, and waves in proportion
+  explicit RandomSynthesis(unsigned number, std::size_t larger = 1);
 
   /// The values of a request; they depend on it alone.
   void sample(const freqsynth::Request& request, std::span<float> out) const {
@@ -49,15 +50,15 @@ struct RandomSynthesis {
   }
 };
 
-inline RandomSynthesis::RandomSynthesis(unsigned number) {
+inline RandomSynthesis::RandomSynthesis(unsigned number, std::size_t larger) {
   using namespace freqsynth;
   oracle::Random random(number);
   const auto chance = [&](double share) { return random.uniform(0, 1) < share; };
-  settings.width = 1 + random.below(chance(0.2) ? 60 : 26);
-  settings.height = 1 + random.below(26);
+  settings.width = larger * (1 + random.below(chance(0.2) ? 60 : 26));
+  settings.height = larger * (1 + random.below(26));
   settings.channels = 1 + random.below(4);
   settings.seed = random.below(3);
-  settings.wave = chance(0.3) ? 1 : random.below(20);
+  settings.wave = chance(0.3) ? 1 : random.below(20) * larger * larger;
   settings.noise = static_cast<Noise>(random.below(3));
   settings.max_samples_per_block = chance(0.3) ? 1 + random.below(60) : 4000;
   if (chance(0.2)) settings.list.positions = SamplePositions::lattice;

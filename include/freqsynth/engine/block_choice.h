@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -18,6 +19,18 @@
 #include "freqsynth/refine/refiner.h"
 
 namespace freqsynth {
+
+/// The priorities of a block and of some beside it.
+struct Revision {
+  /// One of these.
+  struct Beside {
+    std::uint32_t block;
+    float priority;
+  };
+  float priority = 0;            ///< of the block itself
+  std::uint32_t count = 0;       ///< of those beside it
+  std::array<Beside, 4> beside;  ///< the first ones are set
+};
 
 /// The blocks of an image in the order of their priorities.
 template <Refiner R, BlockMeasure<R> M>
@@ -61,10 +74,26 @@ class BlockChoice {
     measure_.absorbed(view, block, changes);
   }
 
+  /// See BlockMeasure.
+  [[nodiscard]] bool apart() const { return measure_.apart(); }
+  /// See BlockMeasure.
+  double absorbed_apart(const BlockView<R>& view, std::uint32_t block,
+                        std::span<const float> changes) {
+    return measure_.absorbed_apart(view, block, changes);
+  }
+  /// See BlockMeasure.
+  void add(double sum) { measure_.add(sum); }
+
   /// Puts blocks where they belong after these visits, and those beside them that have to hear of
-  /// it.
-  /// \param always  blocks beside are told whether there is news or not
+  /// it: revision() and then enter() for each.
   void revise(const BlockView<R>& view, const VisitPlan& plan, bool always);
+  /// Where a block belongs after its visit, and those beside it that have to hear of it. For
+  /// several visits at the same time.
+  /// \param always  blocks beside are told whether there is news or not
+  [[nodiscard]] Revision revision(const BlockView<R>& view, const VisitPlan& plan,
+                                  std::uint32_t block, bool always);
+  /// Puts them there.
+  void enter(std::uint32_t block, const Revision& revision);
   /// Puts all blocks where they belong.
   void revise_all(const BlockView<R>& view);
 
@@ -117,14 +146,30 @@ float BlockChoice<R, M>::priority_of(const BlockView<R>& view, std::uint32_t blo
 template <Refiner R, BlockMeasure<R> M>
 void BlockChoice<R, M>::revise(const BlockView<R>& view, const VisitPlan& plan, bool always) {
   for (const Visit& visit : plan.visits()) {
-    queue_.update(visit.block, priority_of(view, visit.block));
+    enter(visit.block, revision(view, plan, visit.block, always));
   }
-  for (const Visit& visit : plan.visits()) {
-    if (!measure_.has_news(visit.block) && !always) continue;
-    view.grid.visit_beside(visit.block, [&](std::uint32_t other) {
-      if (plan.contains(other) || !measure_.cares(queue_.priority(other))) return;
-      queue_.update(other, priority_of(view, other));
-    });
+}
+
+// Reads the queue only of blocks that are not visited, and whatever the other visits enter there: a
+// priority that is entered twice is the same.
+template <Refiner R, BlockMeasure<R> M>
+Revision BlockChoice<R, M>::revision(const BlockView<R>& view, const VisitPlan& plan,
+                                     std::uint32_t block, bool always) {
+  Revision revision;
+  revision.priority = priority_of(view, block);
+  if (!measure_.has_news(block) && !always) return revision;
+  view.grid.visit_beside(block, [&](std::uint32_t other) {
+    if (plan.contains(other) || !measure_.cares(queue_.priority(other))) return;
+    revision.beside[revision.count++] = {other, priority_of(view, other)};
+  });
+  return revision;
+}
+
+template <Refiner R, BlockMeasure<R> M>
+void BlockChoice<R, M>::enter(std::uint32_t block, const Revision& revision) {
+  queue_.update(block, revision.priority);
+  for (std::uint32_t i = 0; i < revision.count; ++i) {
+    queue_.update(revision.beside[i].block, revision.beside[i].priority);
   }
 }
 

@@ -14,27 +14,19 @@
 #include <vector>
 
 #include "freqsynth/basis/config.h"
-#include "freqsynth/engine/block_grid.h"
-#include "freqsynth/engine/block_store.h"
+#include "freqsynth/engine/block_view.h"
 #include "freqsynth/engine/priority.h"
-#include "freqsynth/engine/signal_statistics.h"
+#include "freqsynth/engine/residual_book.h"
 #include "freqsynth/engine/steering.h"
 #include "freqsynth/refine/refiner.h"
 
 namespace freqsynth {
 
-/// What a measure may look at.
-template <Refiner R>
-struct BlockView {
-  const BlockGrid& grid;           ///< where blocks lie
-  const BlockStore<R>& blocks;     ///< what is known of each
-  const SignalStatistics& signal;  ///< the scale of the signal
-};
-
 /// A measure of blocks that R refines. It keeps what it needs to know of each block.
 template <class M, class R>
 concept BlockMeasure = requires(M& measure, const M& known, const BlockView<R>& view,
-                                std::uint32_t block, float value, std::span<const float> changes) {
+                                std::uint32_t block, float value, double sum,
+                                std::span<const float> changes) {
   /// Blocks use other units from now on (BlockStore::use_units), in which a square over all
   /// channels is `value` times what it was.
   { measure.use_units(view, value) } -> std::same_as<void>;
@@ -43,6 +35,13 @@ concept BlockMeasure = requires(M& measure, const M& known, const BlockView<R>& 
   { measure.notice_noise(view) } -> std::same_as<bool>;
   /// A block has taken in samples, at least one, which changed it by `changes` one after the other.
   { measure.absorbed(view, block, changes) } -> std::same_as<void>;
+  /// Whether absorbed() can be done in two steps at present, absorbed_apart() and add().
+  { known.apart() } -> std::same_as<bool>;
+  /// The first one touches nothing but the block, and may run for several at the same time.
+  { measure.absorbed_apart(view, block, changes) } -> std::same_as<double>;
+  /// The second one takes what the first has returned, block by block, in an order that results
+  /// depend on.
+  { measure.add(sum) } -> std::same_as<void>;
   /// Priority of a block that has had a sample, and is not full; `value` is a factor on it. 0 when
   /// the block needs no more. Finite or not, but a number, and not negative.
   { known.priority(view, block, value) } -> std::same_as<float>;
@@ -53,25 +52,6 @@ concept BlockMeasure = requires(M& measure, const M& known, const BlockView<R>& 
   /// Whether priorities are squares in the blocks' units, and change with them.
   { known.in_units() } -> std::same_as<bool>;
 };
-
-/// The residual of a block, weighted over the channels, but no more than the signal's range allows:
-/// a stray value must not speak louder than all others.
-template <Refiner R>
-[[nodiscard]] float plausible_residual(const BlockView<R>& view, std::uint32_t block) {
-  // The residuals of least squares have at most the sum of squares of the values themselves.
-  const float most = view.signal.most_variance(view.blocks.refiner().weights()) *
-                     static_cast<float>(view.blocks.samples(block)) / view.blocks.freedom(block);
-  return std::min(view.blocks.residual(block), most);
-}
-
-/// The same of one channel.
-template <Refiner R>
-[[nodiscard]] float plausible_residual(const BlockView<R>& view, std::uint32_t block,
-                                       std::size_t channel) {
-  const float most = view.signal.most_variance(channel) *
-                     static_cast<float>(view.blocks.samples(block)) / view.blocks.freedom(block);
-  return std::min(view.blocks.residual(block, channel), most);
-}
 
 /// The paper's measure: from what the last samples have changed.
 class ChangeMeasure {
@@ -96,8 +76,46 @@ class ChangeMeasure {
   }
 
   /// See BlockMeasure.
+  [[nodiscard]] bool apart() const { return steering_.linear() || steering_.settled(); }
+  /// See BlockMeasure.
   template <Refiner R>
   void absorbed(const BlockView<R>& view, std::uint32_t block, std::span<const float> changes) {
+    note(view, block, changes);
+    if (steering_.linear() || !steering_.absorbed(view.blocks, block, changes.size())) return;
+    for (std::uint32_t b = 0; b < view.blocks.size(); ++b) {
+      variations_[b] = steering_.change(view.blocks, b, variations_[b]);
+    }
+  }
+  /// See BlockMeasure.
+  template <Refiner R>
+  double absorbed_apart(const BlockView<R>& view, std::uint32_t block,
+                        std::span<const float> changes) {
+    note(view, block, changes);
+    if (!steering_.linear()) steering_.absorbed(view.blocks, block, changes.size());
+    return 0;
+  }
+  /// See BlockMeasure.
+  static void add(double) {}
+
+  /// See BlockMeasure.
+  template <Refiner R>
+  [[nodiscard]] float priority(const BlockView<R>& view, std::uint32_t block, float factor) const {
+    const float variance = in_units() ? view.signal.variance() : steering_.variance();
+    return factor * metric_.priority(variations_[block], view.blocks.samples(block), variance);
+  }
+
+  /// See BlockMeasure.
+  [[nodiscard]] static bool has_news(std::uint32_t) { return false; }
+  /// See BlockMeasure.
+  [[nodiscard]] static bool cares(float) { return false; }
+  /// See BlockMeasure.
+  [[nodiscard]] bool in_units() const { return steering_.linear(); }
+
+ private:
+  friend struct StateArchive;
+
+  template <Refiner R>
+  void note(const BlockView<R>& view, std::uint32_t block, std::span<const float> changes) {
     // A plausible change is about that of a fit of T terms to n values in the signal's range.
     const float range = 8 * view.signal.most_variance(view.blocks.refiner().weights());
     float& variation = variations_[block];
@@ -117,103 +135,11 @@ class ChangeMeasure {
             variation, known ? steering_.change(view.blocks, block, plausible) : plausible);
       }
     }
-    if (steering_.linear() || !steering_.absorbed(view.blocks, block, changes.size())) return;
-    for (std::uint32_t b = 0; b < view.blocks.size(); ++b) {
-      variations_[b] = steering_.change(view.blocks, b, variations_[b]);
-    }
   }
 
-  /// See BlockMeasure.
-  template <Refiner R>
-  [[nodiscard]] float priority(const BlockView<R>& view, std::uint32_t block, float factor) const {
-    const float variance = in_units() ? view.signal.variance() : steering_.variance();
-    return factor * metric_.priority(variations_[block], view.blocks.samples(block), variance);
-  }
-
-  /// See BlockMeasure.
-  [[nodiscard]] static bool has_news(std::uint32_t) { return false; }
-  /// See BlockMeasure.
-  [[nodiscard]] static bool cares(float) { return false; }
-  /// See BlockMeasure.
-  [[nodiscard]] bool in_units() const { return steering_.linear(); }
-
- private:
-  friend struct StateArchive;
   PriorityMetric metric_;
   Steering steering_;
   std::vector<float> variations_;
-};
-
-/// The plausible residuals of all blocks, and what blocks know of those beside them.
-class ResidualBook {
- public:
-  /// All residuals are 0.
-  explicit ResidualBook(std::size_t blocks) : residuals_(blocks), told_(blocks) {}
-
-  /// In other units all residuals are so many times as large.
-  void rescale(float factor) {
-    // The sum is not added up anew for channels that have no say here.
-    if (factor == 1) return;
-    sum_ = 0;
-    for (float& residual : residuals_) sum_ += double{residual *= factor};
-    for (float& residual : told_) residual *= factor;
-  }
-
-  /// A block has taken in samples.
-  template <Refiner R>
-  void absorbed(const BlockView<R>& view, std::uint32_t block) {
-    note(block, plausible_residual(view, block));
-  }
-
-  /// A block has other residuals now.
-  void note(std::uint32_t block, float residual) {
-    sum_ += double{residual} - double{residuals_[block]};
-    residuals_[block] = residual;
-  }
-
-  /// Variance of the residuals of a block, weighted over the channels.
-  [[nodiscard]] float of(std::uint32_t block) const { return residuals_[block]; }
-  /// The mean over all blocks.
-  [[nodiscard]] float mean() const {
-    return static_cast<float>(sum_ / static_cast<double>(residuals_.size()));
-  }
-
-  /// Whether the residuals of a block have grown by a quarter over what it told the others; from
-  /// then on they know. Blocks that get samples hear of their neighbours then, but those that wait
-  /// for long have to be told.
-  bool has_news(std::uint32_t block) {
-    const float residual = residuals_[block];
-    const bool more = residual > 1.25f * told_[block];
-    const bool less = residual < 0.5f * told_[block];
-    if (more || less) told_[block] = residual;
-    return more;
-  }
-
-  /// residual(block), a variance, pooled with that of the blocks beside it as `neighbours` samples,
-  /// and with the mean of all blocks as `image` samples.
-  template <Refiner R, class Residual>
-  [[nodiscard]] float pooled(const BlockView<R>& view, std::uint32_t block, Residual&& residual,
-                             float neighbours, float image) const {
-    float weight = view.blocks.freedom(block);
-    float sum = weight * residual(block);
-    float beside = 0, blocks = 0;
-    view.grid.visit_beside(block, [&](std::uint32_t other) {
-      beside += residual(other);
-      ++blocks;
-    });
-    if (blocks > 0) {
-      sum += neighbours * beside / blocks;
-      weight += neighbours;
-    }
-    sum += image * mean();
-    return sum / (weight + image);
-  }
-
- private:
-  friend struct StateArchive;
-  std::vector<float> residuals_;
-  std::vector<float> told_;
-  double sum_ = 0;
 };
 
 /// From the residuals of all samples of a block, of those beside it and of the whole image; see
@@ -247,14 +173,24 @@ class ResidualMeasure {
   /// See BlockMeasure.
   template <Refiner R>
   void absorbed(const BlockView<R>& view, std::uint32_t block, std::span<const float> changes) {
-    if (steering_.linear()) {
-      book_.absorbed(view, block);
+    if (apart()) {
+      book_.add(absorbed_apart(view, block, changes));
     } else if (steering_.absorbed(view.blocks, block, changes.size())) {
       for (std::uint32_t b = 0; b < view.blocks.size(); ++b) note_steered(view, b);
-    } else if (steering_.settled()) {
-      note_steered(view, block);
     }
   }
+  /// See BlockMeasure.
+  [[nodiscard]] bool apart() const { return steering_.linear() || steering_.settled(); }
+  /// See BlockMeasure.
+  template <Refiner R>
+  double absorbed_apart(const BlockView<R>& view, std::uint32_t block,
+                        std::span<const float> changes) {
+    if (steering_.linear()) return book_.exchange(block, plausible_residual(view, block));
+    steering_.absorbed(view.blocks, block, changes.size());
+    return book_.exchange(block, steered(view, block));
+  }
+  /// See BlockMeasure.
+  void add(double change) { book_.add(change); }
 
   /// See BlockMeasure.
   template <Refiner R>
@@ -282,10 +218,13 @@ class ResidualMeasure {
  private:
   friend struct StateArchive;
   template <Refiner R>
+  [[nodiscard]] float steered(const BlockView<R>& view, std::uint32_t block) const {
+    return steering_.residual(view.blocks, block,
+                              [&](std::size_t c) { return plausible_residual(view, block, c); });
+  }
+  template <Refiner R>
   void note_steered(const BlockView<R>& view, std::uint32_t block) {
-    book_.note(block, steering_.residual(view.blocks, block, [&](std::size_t c) {
-      return plausible_residual(view, block, c);
-    }));
+    book_.note(block, steered(view, block));
   }
 
   PriorityMetric metric_;

@@ -24,6 +24,14 @@
 
 namespace freqsynth {
 
+/// What a thread needs for itself that takes in samples of blocks while others take in those of
+/// other blocks.
+struct AbsorbRoom {
+  std::vector<float> values;           ///< of some samples in the channels' units
+  std::vector<std::uint8_t> negative;  ///< 1: a channel had a value below 0, see join()
+  bool any_negative = false;           ///< whether one of them had
+};
+
 /// The blocks of one image, all refined by the same refiner.
 template <Refiner R>
 class BlockStore {
@@ -60,6 +68,24 @@ class BlockStore {
   /// \param values  values(i) points to those of the i-th of them, one per channel
   template <class Values>
   void absorb(std::size_t block, std::span<float> changes, Values&& values);
+  /// Room for one thread that calls absorb_apart().
+  [[nodiscard]] AbsorbRoom make_room() const {
+    return {std::vector<float>(most_together * negative_.size()), std::vector<std::uint8_t>(negative_.size())};
+  }
+  /// The same as absorb() in two steps, of which this one may run for several blocks at the same
+  /// time. It does nothing, and absorb() is to be called later, where a value is missing, or was
+  /// before, or there are too many samples.
+  /// \param squares  room for two floats of each channel, for join()
+  /// \return whether it is done
+  template <class Values>
+  bool absorb_apart(std::size_t block, std::span<float> changes, Values&& values, AbsorbRoom& room,
+                    std::span<float> squares);
+  /// The second step, block by block in an order that results depend on: tells what concerns all
+  /// blocks. Between the two only the block itself knows of its samples.
+  /// \param samples  that were taken in
+  void join(std::size_t block, std::size_t samples, std::span<const float> squares);
+  /// The same of a thread's room, in any order.
+  void join(AbsorbRoom& room);
   /// Hints that a block will take in `count` samples from `index` on soon.
   void prefetch(std::size_t block, std::size_t index, std::size_t count) const {
     if constexpr (RefinesRuns<R>) {
@@ -152,13 +178,15 @@ class BlockStore {
   [[nodiscard]] float undiluted(std::size_t block) const {
     return refiner_.freedom(counts_[block]) / freedom(block);
   }
-  bool to_units(const float* values, float* out);
-  bool note_values(const float* values, float* out);
+  template <class Values>
+  bool to_units(Values&& values, std::size_t first, std::size_t count, AbsorbRoom& room) const;
+  bool to_units(const float* values, float* out, AbsorbRoom& room) const;
+  bool note_values(const float* values, float* out, AbsorbRoom& room) const;
+  void refine(std::size_t block, const float* values, std::span<float> changes, bool usable);
   void absorb_run(std::size_t block, const float* values, std::span<float> changes, bool usable);
   void note_gaps(std::size_t block, std::size_t index, const float* values);
   [[nodiscard]] float squares(std::size_t block, std::size_t channel) const;
-  void remember(std::size_t block);
-  void note_surprises(std::size_t block, std::size_t before);
+  void squares(std::size_t block, std::span<float> out) const;
 
   R refiner_;
   std::size_t most_samples_;
@@ -174,9 +202,9 @@ class BlockStore {
   std::vector<float> factors_;          // of a value: 1 / unit
   std::vector<std::uint8_t> negative_;  // 1: a channel's values are not all positive or 0
   std::vector<std::uint32_t> looks_;    // bits of its values that may tell news
-  std::vector<float> values_;           // of `most_together` samples in the channels' units
+  AbsorbRoom room_;                     // of absorb()
   SurpriseBook surprises_;
-  std::vector<float> before_;  // of each channel, see remember()
+  std::vector<float> squares_;  // before and after some samples
 
   static constexpr std::size_t most_together = 16;
   static constexpr std::uint32_t all_bits = 0xffffffffu, without_sign = 0x7fffffffu;
@@ -192,12 +220,12 @@ BlockStore<R>::BlockStore(R refiner, std::size_t blocks, std::size_t most_sample
       missing_(blocks),
       gaps_(blocks),
       surprises_(refiner_.channels()),
-      before_(refiner_.channels()) {
+      squares_(2 * refiner_.channels()) {
   exponents_.assign(refiner_.channels(), 0);
   factors_.assign(refiner_.channels(), 1.0f);
   negative_.resize(refiner_.channels());
   looks_.assign(refiner_.channels(), all_bits);
-  values_.resize(most_together * refiner_.channels());
+  room_ = make_room();
   constexpr std::size_t line = detail::alignment / sizeof(float);
   stride_ = (refiner_.state_size() + line - 1) / line * line;
   states_.resize(blocks * stride_);

@@ -21,26 +21,35 @@ void BlockStore<R>::absorb(std::size_t block, std::span<float> changes, Values&&
   for (std::size_t first = 0; first < changes.size(); first += most_together) {
     const std::size_t together = std::min(changes.size() - first, most_together);
     const std::span<float> part = changes.subspan(first, together);
-    bool plain = !gaps_.any(block);
-    float* out = values_.data();
-    for (std::size_t i = 0; i < together; ++i, out += factors_.size()) {
-      plain = to_units(values(first + i), out) && plain;
-    }
-    if (plain) [[likely]] {
-      absorb_run(block, values_.data(), part, true);
+    if (to_units(values, first, together, room_) && !gaps_.any(block)) [[likely]] {
+      absorb_run(block, room_.values.data(), part, true);
     } else {
       for (std::size_t i = 0; i < together; ++i) {
-        const float* one = values_.data() + i * factors_.size();
+        const float* one = room_.values.data() + i * factors_.size();
         note_gaps(block, counts_[block], one);
         absorb_run(block, one, part.subspan(i, 1), false);
       }
     }
+    join(room_);
   }
 }
 
-/// \return whether all values are usable in the host's unit, and so in any
+/// \return whether all values of some samples are usable in the host's unit, and so in any
 template <Refiner R>
-bool BlockStore<R>::to_units(const float* values, float* out) {
+template <class Values>
+bool BlockStore<R>::to_units(Values&& values, std::size_t first, std::size_t count,
+                             AbsorbRoom& room) const {
+  bool usable = true;
+  float* out = room.values.data();
+  for (std::size_t i = 0; i < count; ++i, out += factors_.size()) {
+    usable = to_units(values(first + i), out, room) && usable;
+  }
+  return usable;
+}
+
+/// \return the same of a sample
+template <Refiner R>
+bool BlockStore<R>::to_units(const float* values, float* out, AbsorbRoom& room) const {
   // Seen as bits, what is usable and not new is not more than some number.
   constexpr auto most = std::bit_cast<std::uint32_t>(max_sample_magnitude);
   const float* const factors = factors_.data();
@@ -52,30 +61,56 @@ bool BlockStore<R>::to_units(const float* values, float* out) {
     out[c] = value * factors[c];
     news |= (std::bit_cast<std::uint32_t>(value) & looks[c]) > most ? 1u : 0u;
   }
-  return news == 0 ? true : note_values(values, out);
+  return news == 0 ? true : note_values(values, out, room);
 }
 
 /// The same where a value is not usable, or a channel's first one below zero.
 template <Refiner R>
-bool BlockStore<R>::note_values(const float* values, float* out) {
+bool BlockStore<R>::note_values(const float* values, float* out, AbsorbRoom& room) const {
   bool bad = false;
   for (std::size_t c = 0; c < factors_.size(); ++c) {
     const bool usable = is_usable_sample(values[c]);
     out[c] = usable ? values[c] * factors_[c] : std::bit_cast<float>(0x7fc00000u);
     bad = bad || !usable;
     if (usable && values[c] < 0) {
-      negative_[c] = 1;
-      looks_[c] = without_sign;
+      room.negative[c] = 1;
+      room.any_negative = true;
     }
   }
   return !bad;
 }
 
 template <Refiner R>
-void BlockStore<R>::absorb_run(std::size_t block, const float* values, std::span<float> changes,
-                               bool usable) {
+template <class Values>
+bool BlockStore<R>::absorb_apart(std::size_t block, std::span<float> changes, Values&& values,
+                                 AbsorbRoom& room, std::span<float> squares) {
+  FREQSYNTH_ASSERT(samples(block) + changes.size() <= most_samples_);
+  if (changes.size() > most_together || gaps_.any(block)) return false;
+  if (!to_units(values, 0, changes.size(), room)) return false;
+  keep(block);
+  this->squares(block, squares.first(factors_.size()));
+  refine(block, room.values.data(), changes, true);
+  this->squares(block, squares.subspan(factors_.size()));
+  return true;
+}
+
+template <Refiner R>
+void BlockStore<R>::join(AbsorbRoom& room) {
+  if (!room.any_negative) return;
+  for (std::size_t c = 0; c < negative_.size(); ++c) {
+    if (room.negative[c] == 0) continue;
+    negative_[c] = 1;
+    looks_[c] = without_sign;
+    room.negative[c] = 0;
+  }
+  room.any_negative = false;
+}
+
+/// Touches nothing but the block.
+template <Refiner R>
+void BlockStore<R>::refine(std::size_t block, const float* values, std::span<float> changes,
+                           bool usable) {
   float* state = states_.data() + block * stride_;
-  remember(block);
   bool together = false;
   if constexpr (RefinesRuns<R>) {
     together = usable;
@@ -84,12 +119,17 @@ void BlockStore<R>::absorb_run(std::size_t block, const float* values, std::span
   for (std::size_t i = 0; !together && i < changes.size(); ++i) {
     changes[i] = refiner_.absorb(state, counts_[block] + i, values + i * factors_.size());
   }
-  std::uint32_t& count = counts_[block];
-  const std::uint32_t before = count;
-  if (count == 0) --untouched_;
-  count += static_cast<std::uint32_t>(changes.size());
-  note_surprises(block, before);
-  largest_ = std::max<std::size_t>(largest_, count);
+  counts_[block] += static_cast<std::uint32_t>(changes.size());
+}
+
+template <Refiner R>
+void BlockStore<R>::absorb_run(std::size_t block, const float* values, std::span<float> changes,
+                               bool usable) {
+  const std::span<float> all = squares_;
+  squares(block, all.first(factors_.size()));
+  refine(block, values, changes, usable);
+  squares(block, all.subspan(factors_.size()));
+  join(block, changes.size(), all);
 }
 
 /// Sum of the squares that a block's fit leaves over of a channel.
@@ -103,24 +143,27 @@ float BlockStore<R>::squares(std::size_t block, std::size_t channel) const {
   }
 }
 
-/// Before a block takes in samples.
+/// The same of all channels.
 template <Refiner R>
-void BlockStore<R>::remember(std::size_t block) {
-  for (std::size_t c = 0; c < before_.size(); ++c) before_[c] = squares(block, c);
+void BlockStore<R>::squares(std::size_t block, std::span<float> out) const {
+  for (std::size_t c = 0; c < out.size(); ++c) out[c] = squares(block, c);
 }
 
-/// And afterwards. \param before  samples that it had had
 template <Refiner R>
-void BlockStore<R>::note_surprises(std::size_t block, std::size_t before) {
+void BlockStore<R>::join(std::size_t block, std::size_t samples, std::span<const float> squares) {
   const std::size_t now = counts_[block];
-  surprises_.count(before, now - before);
-  for (std::size_t c = 0; c < before_.size(); ++c) {
-    const float left = squares(block, c);
-    if (!(left > 2 * before_[c])) [[likely]]
+  const std::size_t before = now - samples;
+  const std::size_t channels = factors_.size();
+  if (before == 0) --untouched_;
+  surprises_.count(before, samples);
+  for (std::size_t c = 0; c < channels; ++c) {
+    const float left = squares[channels + c];
+    if (!(left > 2 * squares[c])) [[likely]]
       continue;
-    surprises_.note(c, {before, before_[c], refiner_.freedom(before)},
+    surprises_.note(c, {before, squares[c], refiner_.freedom(before)},
                     {now, left, refiner_.freedom(now)});
   }
+  largest_ = std::max<std::size_t>(largest_, now);
 }
 
 /// Before a block takes in a sample.

@@ -32,6 +32,7 @@
 #include "freqsynth/engine/channel_units.h"
 #include "freqsynth/engine/edge_cache.h"
 #include "freqsynth/engine/error_watch.h"
+#include "freqsynth/engine/executor.h"
 #include "freqsynth/engine/exploration.h"
 #include "freqsynth/engine/nearest_samples.h"
 #include "freqsynth/engine/noise.h"
@@ -40,6 +41,7 @@
 #include "freqsynth/engine/signal_statistics.h"
 #include "freqsynth/engine/stop_meter.h"
 #include "freqsynth/engine/stop_rule.h"
+#include "freqsynth/engine/team_work.h"
 #include "freqsynth/engine/visit_plan.h"
 #include "freqsynth/engine/waiting_room.h"
 #include "freqsynth/engine/wave.h"
@@ -81,8 +83,10 @@ class Engine {
   /// Hands out up to out.size() positions. \throws std::bad_alloc, and nothing is handed out.
   std::size_t request(std::span<Request> out, Wait wait = Wait::no);
   /// Takes values. \throws std::invalid_argument, and none is taken.
+  /// \param executor  helps to take in a wave that is complete by this. What it throws goes on,
+  ///                  but all values are taken
   void deliver(std::span<const Request> requests, std::span<const float> values,
-               std::size_t stride = 0);
+               std::size_t stride = 0, const detail::ExecutorRef& executor = {});
   /// Takes requests back without values. \throws std::invalid_argument, and none is taken.
   void give_back(std::span<const Request> requests);
   /// Takes requests back that nobody will answer. \throws std::invalid_argument, and none is taken.
@@ -111,7 +115,7 @@ class Engine {
 
   /// See NearestSamples::pixels().
   [[nodiscard]] std::vector<float> nearest_pixels(std::size_t channel) const {
-    const std::lock_guard lock(mutex_);
+    const std::unique_lock lock = settled();
     return nearest_.pixels(channel);
   }
 
@@ -119,7 +123,7 @@ class Engine {
   /// meanwhile.
   template <class Read>
   auto read(Read&& read) const {
-    const std::lock_guard lock(mutex_);
+    const std::unique_lock lock = settled();
     return read(grid_, blocks_);
   }
   /// Calls use(grid, snapshot, noisy()) with a BlockSnapshot of the blocks after the last complete
@@ -131,14 +135,14 @@ class Engine {
   /// Saves all that is known, requests that are owed included, into an archive; see StateArchive.
   template <class Archive>
   void save(Archive& archive) const {
-    const std::lock_guard lock(mutex_);
+    const std::unique_lock lock = settled();
     list_parts(archive, *this);
   }
   /// Loads it, into an engine that is as new. What was owed is handed out again. When it throws,
   /// the engine must not be used.
   template <class Archive>
   void load(Archive& archive) {
-    const std::lock_guard lock(mutex_);
+    const std::unique_lock lock = settled();
     list_parts(archive, *this);
   }
 
@@ -148,7 +152,13 @@ class Engine {
   /// asked for more, unless a stop rule is set anew.
   static constexpr std::uint64_t unusable_at_most = 64;
 
-  // All of these run under the lock.
+  /// Waves of fewer visits are not worth the trouble of sharing them.
+  static constexpr std::size_t least_shared = 128;
+  /// A visit of more samples, which is rare, is no affair of several threads.
+  static constexpr std::size_t most_apart = 16;
+
+  [[nodiscard]] std::unique_lock<std::mutex> settled() const;
+  // All of these run under the lock, but where they say otherwise.
   [[nodiscard]] BlockView<R> view() const { return {grid_, blocks_, signal_}; }
   [[nodiscard]] const SequencePosition& position(std::size_t index) const {
     return blocks_.refiner().list().position(index);
@@ -157,7 +167,6 @@ class Engine {
   std::optional<StopReason> end();
   [[nodiscard]] StopMeter::Shares shares() const;
   [[nodiscard]] bool meets_target();
-  void end_of_delivery();
   template <class Archive, class Self>
   static void list_parts(Archive& archive, Self& self);
   template <class Archive, class Self>
@@ -183,14 +192,38 @@ class Engine {
   ValueSource source_of(std::uint32_t block, std::uint32_t index);
   [[nodiscard]] Request make_request(std::uint32_t slot) const;
   void claim(std::span<const Request> requests);
-  void finish_wave();
   [[nodiscard]] bool take_in_repeated();
   bool take_in_repeated(const Wave::Slot& slot, const float* values);
   void change_units();
   void note(std::size_t slot);
+  // How a wave is taken in; see engine_absorb.inl.
+  /// What threads do together, without the lock; all else is done by one of them, under it.
+  enum class Stage { absorb, revise };
+  /// What is noted of a visit.
+  struct Taken {
+    double sum = 0;     // see BlockMeasure::add()
+    bool done = false;  // apart from the others
+  };
+  void end_of_delivery(std::unique_lock<std::mutex>& lock, const detail::ExecutorRef& executor);
+  void work_together(const detail::ExecutorRef& executor);
+  [[nodiscard]] static std::size_t ranges(std::size_t visits);
+  void begin_stage(Stage stage);
+  void work(std::size_t piece);
+  std::size_t next_stage();
+  void absorb_all();
+  void finish_wave();
+  void end_wave();
+  void prefetch(std::size_t visit, std::size_t end) const;
   void take_known();
+  [[nodiscard]] const float* values_of(const Visit& visit, std::size_t i) const;
+  [[nodiscard]] std::span<float> squares_of(std::size_t visit) {
+    const std::size_t size = 2 * blocks_.refiner().channels();
+    return {squares_.data() + visit * size, size};
+  }
   void absorb(const Visit& visit);
-  void keep_for_others(std::uint32_t slot);
+  void absorb_apart(std::size_t number, AbsorbRoom& room);
+  void join();
+  void keep_for_others();
 
   BlockGrid grid_;
   BlockStore<R> blocks_;
@@ -210,9 +243,17 @@ class Engine {
   };
   std::vector<Known> known_;    // samples that the cache has
   std::vector<float> changes_;  // of the samples of a visit
-  std::uint64_t frame_;         // the seed, mixed
-  std::size_t wave_size_;       // blocks
-  std::size_t longest_visit_;   // samples
+  // While a wave is taken in, of each visit, and room for each range of them:
+  Stage stage_ = Stage::absorb;
+  bool others_ = false;  // all priorities change
+  std::vector<Taken> taken_;
+  std::vector<float> squares_;
+  std::vector<Revision> revisions_;
+  std::vector<AbsorbRoom> rooms_;
+  mutable detail::TeamWork team_;
+  std::uint64_t frame_;        // the seed, mixed
+  std::size_t wave_size_;      // blocks
+  std::size_t longest_visit_;  // samples
   Exploration exploration_;
   double shares_ = 0;                          // of all blocks, see BlockChoice::share()
   std::optional<std::vector<float>> factors_;  // that are to be used from the next wave on

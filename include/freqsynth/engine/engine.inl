@@ -4,6 +4,7 @@
 #include "freqsynth/basis/float_bits.h"
 #include "freqsynth/basis/mix_bits.h"
 #include "freqsynth/engine/engine.h"
+#include "freqsynth/engine/engine_absorb.inl"
 #include "freqsynth/engine/engine_choice.inl"
 #include "freqsynth/engine/engine_end.inl"
 #include "freqsynth/engine/engine_plan.inl"
@@ -40,6 +41,23 @@ Engine<R, M>::Engine(const BlockGrid& grid, BlockStore<R> blocks, M measure,
   const bool none = std::none_of(counts_.begin(), counts_.end(), [](bool one) { return one; });
   if (none) counts_.assign(counts_.size(), true);
   choice_.revise_all(view());
+  if (grid.size() < least_shared) return;
+  taken_.reserve(grid.size());
+  squares_.reserve(2 * blocks_.refiner().channels() * grid.size());
+  revisions_.reserve(grid.size());
+  for (std::size_t i = 0; i < ranges(grid.size()); ++i) rooms_.push_back(blocks_.make_room());
+}
+
+/// The lock, once no wave is being taken in.
+template <Refiner R, BlockMeasure<R> M>
+std::unique_lock<std::mutex> Engine<R, M>::settled() const {
+  std::unique_lock lock(mutex_);
+  while (team_.active()) {
+    lock.unlock();
+    team_.finish();
+    lock.lock();
+  }
+  return lock;
 }
 
 template <Refiner R, BlockMeasure<R> M>
@@ -48,41 +66,6 @@ void Engine<R, M>::set_factors(std::vector<float> factors) {
   const std::lock_guard lock(mutex_);
   factors_ = std::move(factors);
   ended_.reset();
-}
-
-/// Takes in a complete wave. Nothing in it throws; see reserve().
-template <Refiner R, BlockMeasure<R> M>
-void Engine<R, M>::finish_wave() {
-  // The states of blocks lie all over the memory: fetch those that come soon.
-  constexpr std::size_t ahead = 4;
-  const bool others = take_in_repeated();
-  if (!units_.fit(wave_.values())) change_units();
-  for (std::size_t i = 0; i < wave_.samples(); ++i) note(i);
-  take_known();
-  const std::span<const Visit> visits = plan_.visits();
-  for (std::size_t i = 0; i < visits.size(); ++i) {
-    if (i + ahead < visits.size()) {
-      const Visit& soon = visits[i + ahead];
-      blocks_.prefetch(soon.block, soon.first, soon.count);
-    }
-    absorb(visits[i]);
-  }
-  for (const std::uint32_t slot : borders_) keep_for_others(slot);
-  stats_.samples += wave_.samples();
-  stats_.probes += wave_.size() - wave_.samples();
-  ++stats_.waves;
-  wave_.clear();
-  borders_.clear();
-  known_.clear();
-  if (blocks_.untouched() == 0 && !signal_.settled()) {
-    signal_.settle(blocks_.refiner().weights());
-    choice_.revise_all(view());
-  } else if (others) {
-    choice_.revise_all(view());
-  } else {
-    choice_.revise(view(), plan_, wave_size_ == 1);
-  }
-  plan_.clear();
 }
 
 /// Compares the values of positions that were asked for twice. \return whether all priorities are
@@ -170,47 +153,12 @@ void Engine<R, M>::note(std::size_t number) {
   }
 }
 
-/// Takes what is known of the visits' samples out of the cache.
-template <Refiner R, BlockMeasure<R> M>
-void Engine<R, M>::take_known() {
-  for (const Known& one : known_) {
-    const float* values =
-        cache_.take(grid_.column(one.block), grid_.row(one.block), position(one.index));
-    FREQSYNTH_ASSERT(values != nullptr);
-    wave_.keep_known(values);
-  }
-}
-
-template <Refiner R, BlockMeasure<R> M>
-void Engine<R, M>::absorb(const Visit& visit) {
-  const std::span<float> changes = std::span(changes_).first(visit.count);
-  blocks_.absorb(visit.block, changes, [&](std::size_t i) {
-    const auto index = visit.first + static_cast<std::uint32_t>(i);
-    const ValueSource& source = plan_.source(visit, index);
-    return source.known ? wave_.known(source.number) : std::as_const(wave_).values(source.number);
-  });
-  choice_.absorbed(view(), visit.block, changes);
-  stats_.absorbed += visit.count;
-}
-
-/// Gives a sample to the blocks that will need it later.
-template <Refiner R, BlockMeasure<R> M>
-void Engine<R, M>::keep_for_others(std::uint32_t slot) {
-  const Wave::Slot& asked = wave_.slot(slot);
-  const SequencePosition& place = position(asked.index);
-  grid_.visit_sharing(asked.block, place, [&](std::uint32_t other, std::uint32_t index) {
-    if (index >= blocks_.most_samples() || index < blocks_.samples(other)) return;
-    cache_.put(grid_.column(other), grid_.row(other), position(index),
-               {wave_.values(slot), blocks_.refiner().channels()});
-  });
-}
-
 template <Refiner R, BlockMeasure<R> M>
 template <class Use>
 auto Engine<R, M>::with_snapshot(Use&& use) const {
   const std::lock_guard one(snapshot_);
   detail::StateKeeper keeper(blocks_.size(), blocks_.state_size());
-  std::unique_lock lock(mutex_);
+  std::unique_lock lock = settled();
   const BlockSnapshot<R> snapshot(blocks_, &keeper);
   const bool noisy = noise_ == Noise::present;
   struct Watch {
@@ -219,7 +167,7 @@ auto Engine<R, M>::with_snapshot(Use&& use) const {
       engine.blocks_.watch(&keeper);
     }
     ~Watch() {
-      const std::lock_guard lock(engine.mutex_);
+      const std::unique_lock lock = engine.settled();
       engine.blocks_.watch(nullptr);
     }
   };
@@ -231,7 +179,7 @@ auto Engine<R, M>::with_snapshot(Use&& use) const {
 
 template <Refiner R, BlockMeasure<R> M>
 SynthesisStats Engine<R, M>::stats() const {
-  const std::lock_guard lock(mutex_);
+  const std::unique_lock lock = settled();
   SynthesisStats stats = stats_;
   stats.samples += wave_.delivered_samples();
   stats.probes += wave_.delivered() - wave_.delivered_samples();
@@ -240,7 +188,7 @@ SynthesisStats Engine<R, M>::stats() const {
 
 template <Refiner R, BlockMeasure<R> M>
 std::vector<BadSample> Engine<R, M>::bad_samples() const {
-  const std::lock_guard lock(mutex_);
+  const std::unique_lock lock = settled();
   return bad_;
 }
 

@@ -19,7 +19,7 @@ void Engine<R, M>::set_stop(const StopRule& stop) {
 
 template <Refiner R, BlockMeasure<R> M>
 std::optional<StopReason> Engine<R, M>::stopped() {
-  const std::lock_guard lock(mutex_);
+  const std::unique_lock lock = settled();
   if (const std::optional<StopReason> why = end()) return why;
   return wave_.waiting() ? std::nullopt : std::optional(StopReason::waiting);
 }

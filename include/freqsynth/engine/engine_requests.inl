@@ -8,7 +8,7 @@ namespace freqsynth {
 
 template <Refiner R, BlockMeasure<R> M>
 std::size_t Engine<R, M>::request(std::span<Request> out, Wait wait) {
-  std::unique_lock lock(mutex_);
+  std::unique_lock lock = settled();
   while (true) {
     // Asked before anything is looked at: what changes afterwards is news.
     const std::uint64_t news = room_.news();
@@ -18,7 +18,7 @@ std::size_t Engine<R, M>::request(std::span<Request> out, Wait wait) {
     const auto deadline = meter_.deadline();
     lock.unlock();
     room_.wait(news, deadline);
-    lock.lock();
+    lock = settled();
   }
   std::size_t count = 0;
   while (count < out.size() && wave_.waiting()) {
@@ -76,7 +76,7 @@ void Engine<R, M>::claim(std::span<const Request> requests) {
 
 template <Refiner R, BlockMeasure<R> M>
 void Engine<R, M>::deliver(std::span<const Request> requests, std::span<const float> values,
-                           std::size_t stride) {
+                           std::size_t stride, const detail::ExecutorRef& executor) {
   const std::size_t channels = blocks_.refiner().channels() + nearest_.channels();
   const bool packed = stride == 0 || stride == channels;
   if (packed) stride = channels;
@@ -90,12 +90,12 @@ void Engine<R, M>::deliver(std::span<const Request> requests, std::span<const fl
                    std::to_string(requests.size()) + " requests of " + std::to_string(channels) +
                    " channels" + (packed ? "" : ", each " + std::to_string(stride) + " apart"));
   }
-  const std::lock_guard lock(mutex_);
+  std::unique_lock lock(mutex_);
   claim(requests);
   for (std::size_t i = 0; i < requests.size(); ++i) {
     wave_.deliver(requests[i].slot, values.data() + i * stride);
   }
-  end_of_delivery();
+  end_of_delivery(lock, executor);
 }
 
 template <Refiner R, BlockMeasure<R> M>
@@ -108,19 +108,11 @@ void Engine<R, M>::give_back(std::span<const Request> requests) {
 
 template <Refiner R, BlockMeasure<R> M>
 void Engine<R, M>::abandon(std::span<const Request> requests) {
-  const std::lock_guard lock(mutex_);
+  std::unique_lock lock(mutex_);
   claim(requests);
   for (const Request& request : requests) wave_.abandon(request.slot);
   stats_.abandoned += requests.size();
-  end_of_delivery();
-}
-
-/// Takes in the wave, when all of it is there.
-template <Refiner R, BlockMeasure<R> M>
-void Engine<R, M>::end_of_delivery() {
-  if (!wave_.complete()) return;
-  finish_wave();
-  room_.wake();
+  end_of_delivery(lock, {});
 }
 
 }  // namespace freqsynth

@@ -36,7 +36,7 @@ class Batch {
         expected_at_work_(std::clamp<std::size_t>(concurrency, 1, parts_.size())) {}
   Batch(const Batch&) = delete;
   Batch& operator=(const Batch&) = delete;
-  ~Batch() { settle(); }
+  ~Batch() { settle({}); }
 
   /// Asks for requests. \return how many parts they make
   std::size_t fill() {
@@ -70,22 +70,31 @@ class Batch {
     }
   }
 
-  /// Delivers what was answered and gives back the rest. \return the first error of the sampler
-  std::exception_ptr settle() {
-    std::exception_ptr error;
+  /// Delivers what was answered and gives back the rest.
+  /// \param executor  helps to take in what was delivered
+  /// \return the first error of the sampler, or that of the executor
+  std::exception_ptr settle(const ExecutorRef& executor) {
+    std::exception_ptr error, late;
     for (std::size_t i = 0; i < part_count_; ++i) {
       const std::size_t first = first_of(i);
       const std::size_t size = first_of(i + 1) - first;
       const std::size_t done = parts_[i].done;
       const auto part = std::span<const Request>(requests_).subspan(first, size);
-      engine_.deliver(part.first(done),
-                      std::span<const float>(values_).subspan(first * stride_, done * stride_),
-                      stride_);
+      try {
+        engine_.deliver(part.first(done),
+                        std::span<const float>(values_).subspan(first * stride_, done * stride_),
+                        stride_, executor);
+      }
+      FREQSYNTH_RETHROW_CANCELLATION
+      catch (...) {
+        // All was taken. Only the last part can complete a wave.
+        late = std::current_exception();
+      }
       if (done < size) engine_.give_back(part.subspan(done));
       if (parts_[i].error && !error) error = parts_[i].error;
     }
     part_count_ = 0;
-    return error;
+    return error ? error : late;
   }
 
   /// Parts that the executor has left out.
@@ -179,7 +188,7 @@ RunReport run_loop(E& engine, std::size_t channels, const SamplerRef& sampler, c
     executor.execute(parts, TaskRef(task));
     sampling += Clock::now() - sampling_begin;
     const std::size_t left_out = requests.left_out();
-    if (const std::exception_ptr error = requests.settle()) std::rethrow_exception(error);
+    if (const std::exception_ptr error = requests.settle(executor)) std::rethrow_exception(error);
     if (left_out > 0) {
       throw std::runtime_error("freqsynth: the executor left out " + std::to_string(left_out) +
                                " of " + std::to_string(parts) + " tasks");

@@ -22,6 +22,9 @@ class WaitingRoom {
   /// Number of calls of wake().
   [[nodiscard]] std::uint64_t news() const { return news_; }
 
+  /// Whether anybody waits.
+  [[nodiscard]] bool occupied() const { return waiting_ > 0; }
+
   /// Waits until there are other news than `seen`, or `deadline` has passed.
   void wait(std::uint64_t seen,
             const std::optional<std::chrono::steady_clock::time_point>& deadline) {

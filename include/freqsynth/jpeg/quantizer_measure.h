@@ -54,8 +54,17 @@ class QuantizerMeasure {
   /// See BlockMeasure.
   template <Refiner R>
   void absorbed(const BlockView<R>& view, std::uint32_t block, std::span<const float>) {
-    book_.absorbed(view, block);
+    book_.note(block, plausible_residual(view, block));
   }
+  /// See BlockMeasure.
+  [[nodiscard]] static bool apart() { return true; }
+  /// See BlockMeasure.
+  template <Refiner R>
+  double absorbed_apart(const BlockView<R>& view, std::uint32_t block, std::span<const float>) {
+    return book_.exchange(block, plausible_residual(view, block));
+  }
+  /// See BlockMeasure.
+  void add(double change) { book_.add(change); }
 
   /// The error falls with the number of samples; so it is worth error / samples to take one more.
   template <Refiner R>
