@@ -160,8 +160,11 @@ TEST_P(PictureKernels, FlatPixelsAreHeld) {
     }
     AlignedBlock pixels;
     for (float& pixel : pixels) pixel = static_cast<float>(random.uniform(-1, 3));
-    AlignedBlock held = pixels;
-    version_->hold_flat(means.data(), side, alike, off, held.data());
+    // Not on any border in memory.
+    std::array<float, max_terms + 1> memory{};
+    float* const held = memory.data() + 1;
+    std::copy(pixels.begin(), pixels.end(), held);
+    version_->hold_flat(means.data(), side, alike, off, held);
     for (std::size_t i = 0; i < max_terms; ++i) {
       const std::size_t middle = (i / 8 + 1) * side + i % 8 + 1;
       const float own = means[middle];
@@ -179,6 +182,28 @@ TEST_P(PictureKernels, FlatPixelsAreHeld) {
       const bool near = std::abs(expected - clamped) <= off;
       if (own != unknown && count >= 3 && (count == 9 || near)) expected = clamped;
       ASSERT_EQ(held[i], expected) << "pixel " << i;
+    }
+  }
+}
+
+TEST_P(PictureKernels, ResidualsOfAnyNumberOfAmplitudes) {
+  for (std::size_t used = 0; used <= max_terms; ++used) {
+    oracle::Random random(static_cast<unsigned>(used));
+    detail::AlignedVector<float> matrix(max_terms * max_terms);
+    for (float& value : matrix) value = random.value();
+    AlignedBlock amplitudes{}, shares, found;
+    std::array<float, max_terms + 1> sums;  // those from the second on
+    for (std::size_t i = 0; i < used; ++i) amplitudes[i] = random.value();
+    for (float& share : shares) share = random.value();
+    for (float& sum : sums) sum = random.value();
+    version_->residual_means(matrix.data(), amplitudes.data(), sums.data() + 1, shares.data(),
+                             found.data());
+    for (std::size_t j = 0; j < max_terms; ++j) {
+      double rest = double{sums[j + 1]};
+      for (std::size_t i = 0; i < max_terms; ++i) {
+        rest -= double{matrix[j * max_terms + i]} * double{amplitudes[i]};
+      }
+      ASSERT_NEAR(double{found[j]}, rest * double{shares[j]}, 1e-5) << used << ", row " << j;
     }
   }
 }

@@ -7,28 +7,24 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <functional>
 #include <limits>
-#include <memory>
 #include <stdexcept>
 #include <vector>
 
-#include "freqsynth/basis/aligned.h"
 #include "freqsynth/basis/dct.h"
 #include "freqsynth/basis/inverse_list.h"
 #include "freqsynth/basis/sample_sequence.h"
 #include "freqsynth/basis/shared_list.h"
 #include "freqsynth/image/reconstructor.h"
-#include "freqsynth/refine/least_squares_refiner.h"
 #include "freqsynth/synthesizer.h"
+#include "support/fitted_block.h"
 
 namespace freqsynth {
 namespace {
 
+using helpers::edge;
+using helpers::FittedBlock;
 using Block = std::array<float, max_terms>;
-
-/// A hard edge across the block, which no band-limited function holds.
-double edge(double s, double t) { return s + 0.37 * t < 0.61 ? 1.0 : 0.0; }
 
 /// Uniform in -1/2 .. 1/2, another number for each sample.
 double noise(std::size_t sample) {
@@ -37,42 +33,6 @@ double noise(std::size_t sample) {
   random ^= random >> 32;
   return static_cast<double>(random >> 40) / (1 << 24) - 0.5;
 }
-
-/// A block after `samples` samples of edge(), or of another function of position and number.
-struct FittedBlock {
-  explicit FittedBlock(
-      std::size_t samples,
-      const std::function<double(const SequencePosition&, std::size_t)>& function =
-          [](const SequencePosition& p, std::size_t) { return edge(p.s, p.t); })
-      : refiner(list, 1), state(refiner.state_size()) {
-    refiner.reset(state.data());
-    for (std::size_t n = 0; n < samples; ++n) {
-      const auto value = static_cast<float>(function(list->position(n), n));
-      refiner.absorb(state.data(), n, &value);
-    }
-    refiner.coefficients(state.data(), samples, 0, coefficients);
-    const std::size_t terms = list->terms(samples - 1);
-    residual = refiner.squared_residuals(state.data(), 0) /
-               static_cast<float>(samples > terms ? samples - terms : 1);
-  }
-
-  /// Finished pixels.
-  [[nodiscard]] Block finished(std::size_t samples, const FinishSettings& settings,
-                               const PixelEvidence& evidence = {}) const {
-    PixelFinisher finisher(list, settings);
-    finisher.advance(samples);
-    Block out{}, pixels{};
-    finisher.finish({coefficients, refiner.pixel_sums(state.data(), 0), residual}, out, evidence);
-    inverse_dct(out, pixels);
-    return pixels;
-  }
-
-  SharedInverseList list = SharedInverseList({.positions = SamplePositions::lattice});
-  LeastSquaresRefiner refiner;
-  detail::AlignedVector<float> state;
-  Block coefficients{};
-  float residual = 0;
-};
 
 /// The definition, literally: mean of the filtered fit over the pixel by fine quadrature, plus the
 /// shrunk weighted average of sample minus filtered fit over the samples in the pixel, halves on
@@ -103,12 +63,7 @@ std::array<double, max_terms> literal_pixels(const FittedBlock& block, std::size
     double sum = 0, weight = 0, values = 0;
     for (std::size_t n = 0; n < samples; ++n) {
       const SequencePosition& p = block.list->position(n);
-      const auto share = [](double x, double low) {
-        return x < low || x > low + 1 ? 0.0 : x == low || x == low + 1 ? 0.5 : 1.0;
-      };
-      // Of samples on the border of the block half is left out.
-      const bool border = p.s == 0 || p.s == 1 || p.t == 0 || p.t == 1;
-      const double w = share(8 * p.s, column) * share(8 * p.t, row) * (border ? 0.5 : 1);
+      const double w = helpers::weight_in_pixel(p, pixel);
       weight += w;
       values += w * edge(p.s, p.t);
       sum += w * (edge(p.s, p.t) - evaluate_block(filtered, p.s, p.t));
@@ -160,80 +115,6 @@ TEST(PixelFinisher, IsItsDefinition) {
       }
     }
   }
-}
-
-TEST(PixelFinisher, BoundsKeepARingingFitWithinTheSamples) {
-  FinishSettings settings;
-  settings.shrinkage = 0;
-  settings.butterworth.enabled = false;
-  settings.slack = std::numeric_limits<double>::infinity();
-  const FittedBlock block(100);
-  const Block ringing = block.finished(100, settings);
-  EXPECT_LT(*std::min_element(ringing.begin(), ringing.end()), -0.058f) << "-.073 was measured";
-  EXPECT_GT(*std::max_element(ringing.begin(), ringing.end()), 1.058f);
-  settings.slack = 0;
-  for (const float pixel : block.finished(100, settings)) {
-    EXPECT_GE(pixel, -1e-5f);
-    EXPECT_LE(pixel, 1 + 1e-5f);
-  }
-}
-
-TEST(PixelFinisher, LiftsPixelsBelowZeroWhereNoSampleIs) {
-  FinishSettings settings;
-  settings.shrinkage = 0;
-  settings.butterworth.enabled = false;
-  settings.slack = std::numeric_limits<double>::infinity();
-  const FittedBlock block(100);
-  const Block ringing = block.finished(100, settings);
-  float above = 0, below = 0;
-  for (const float pixel : ringing) (pixel > 0 ? above : below) += pixel;
-  ASSERT_LT(below, -0.3f);
-  const Block lifted = block.finished(100, settings, {.positive = true});
-  for (std::size_t pixel = 0; pixel < max_terms; ++pixel) {
-    const float expected = std::max(ringing[pixel], 0.0f) * (above + below) / above;
-    EXPECT_NEAR(lifted[pixel], expected, 1e-5f) << pixel;
-  }
-  settings.keep_positive = false;
-  EXPECT_EQ(block.finished(100, settings, {.positive = true}), ringing);
-}
-
-TEST(PixelFinisher, HoldsFlatPixelsAtTheirSamples) {
-  FinishSettings settings, off;
-  settings.shrinkage = off.shrinkage = 0;
-  settings.butterworth.enabled = off.butterworth.enabled = false;
-  settings.ringing = 0.1;
-  off.ringing = 0;
-  const auto shown = [](int column, int row) {
-    return static_cast<float>(edge((column + 0.5) / 8, (row + 0.5) / 8));
-  };
-  Block means;
-  for (int i = 0; i < 64; ++i) means[static_cast<std::size_t>(i)] = shown(i % 8, i / 8);
-  PixelEvidence evidence;
-  evidence.own_means[4] = means.data();
-  int changed = 0, kept = 0;
-  for (const std::size_t samples : {50u, 64u, 100u, 150u, 256u}) {
-    const FittedBlock block(samples);
-    const Block ringing = block.finished(samples, off, evidence);
-    const Block held = block.finished(samples, settings, evidence);
-    for (int i = 0; i < 64; ++i) {
-      const int column = i % 8, row = i / 8;
-      int alike = 0;
-      for (int v = std::max(row - 1, 0); v <= std::min(row + 1, 7); ++v) {
-        for (int u = std::max(column - 1, 0); u <= std::min(column + 1, 7); ++u) {
-          alike += (u != column || v != row) && shown(u, v) == shown(column, row) ? 1 : 0;
-        }
-      }
-      const auto pixel = static_cast<std::size_t>(i);
-      const float distance = std::abs(ringing[pixel] - means[pixel]);
-      // The range of the block's means is 1.
-      const bool is_held = alike == 8 || (alike >= 2 && distance <= 0.1f);
-      EXPECT_NEAR(held[pixel], is_held ? means[pixel] : ringing[pixel], 1e-6f) << i;
-      changed += is_held && distance > 1e-4f ? 1 : 0;
-      kept += is_held ? 0 : 1;
-    }
-  }
-  EXPECT_GT(changed, 10);
-  EXPECT_GT(kept, 10);
 }
 
 // White noise around a slope. What is known of the noise makes the picture smoother; at an edge the

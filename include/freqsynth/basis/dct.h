@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 
 #include "freqsynth/basis/config.h"
 
@@ -122,6 +123,39 @@ inline constexpr std::array<float, max_terms> coefficient_amplitudes = [] {
   }
   return amplitudes;
 }();
+/// The same row by row, at place v * 8 + u.
+inline constexpr std::array<float, max_terms> row_major_amplitudes = [] {
+  std::array<float, max_terms> amplitudes{};
+  for (std::size_t i = 0; i < max_terms; ++i) {
+    amplitudes[zigzag_to_row_major[i]] = coefficient_amplitudes[i];
+  }
+  return amplitudes;
+}();
+
+/// Numbers of all terms from zig-zag order to rows. `rows` is none of `terms`.
+inline void to_row_major(std::span<const float, max_terms> terms,
+                         std::span<float, max_terms> rows) {
+  // Unrolled, with places that are constants.
+  [&]<std::size_t... place>(std::index_sequence<place...>) {
+    ((rows[place] = terms[row_major_to_zigzag[place]]), ...);
+  }
+  (std::make_index_sequence<max_terms>());
+}
+/// The way back.
+inline void to_zigzag(std::span<const float, max_terms> rows, std::span<float, max_terms> terms) {
+  [&]<std::size_t... term>(std::index_sequence<term...>) {
+    ((terms[term] = rows[zigzag_to_row_major[term]]), ...);
+  }
+  (std::make_index_sequence<max_terms>());
+}
+
+// Both transforms without zig-zag order. What is written is aligned to 32 bytes, as amplitudes are.
+/// Eq. 1: coefficients F, row by row.
+FREQSYNTH_API void transform_to_rows(std::span<const float, max_terms> pixels,
+                                     std::span<float, max_terms> rows);
+/// Eq. 2, of amplitudes G, row by row.
+FREQSYNTH_API void evaluate_rows(std::span<const float, max_terms> amplitudes,
+                                 std::span<float, max_terms> pixels);
 
 }  // namespace detail
 

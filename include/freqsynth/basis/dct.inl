@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -31,15 +32,13 @@ inline std::array<double, block_size> cosines(double s) {
 
 /// Eq. 7 at the centres of the pixels of a block, as the separable kernel reads it.
 struct PixelCosines {
-  AlignedBlock by_frequency;                // [u][x]
-  AlignedBlock by_pixel;                    // [y][v]
-  std::array<float, max_terms> amplitudes;  // of a coefficient, zig-zag
-  // The same cosines, [x][u], and amplitudes, [v][u], for the way there.
+  AlignedBlock by_frequency;  // [u][x]
+  AlignedBlock by_pixel;      // [y][v]
+  // The same cosines, [x][u], and the amplitudes of coefficients, [v][u], for the way there.
   AlignedArray<double, max_terms> forward, scales;
 
   PixelCosines() {
     for (std::size_t i = 0; i < max_terms; ++i) {
-      amplitudes[i] = static_cast<float>(amplitude_of_coefficient(i));
       scales[zigzag_to_row_major[i]] = amplitude_of_coefficient(i);
     }
     for (std::size_t x = 0; x < block_size; ++x) {
@@ -56,6 +55,19 @@ struct PixelCosines {
 inline const PixelCosines& pixel_cosines() {
   static const PixelCosines table;
   return table;
+}
+
+FREQSYNTH_INLINE void transform_to_rows(std::span<const float, max_terms> pixels,
+                                        std::span<float, max_terms> rows) {
+  const PixelCosines& table = pixel_cosines();
+  forward_transform(pixels.data(), table.forward.data(), table.scales.data(), rows.data());
+}
+
+FREQSYNTH_INLINE void evaluate_rows(std::span<const float, max_terms> amplitudes,
+                                    std::span<float, max_terms> pixels) {
+  const PixelCosines& table = pixel_cosines();
+  evaluate_separable(amplitudes.data(), table.by_frequency.data(), block_size, block_size,
+                     table.by_pixel.data(), block_size, pixels.data(), block_size);
 }
 
 }  // namespace detail
@@ -77,10 +89,9 @@ FREQSYNTH_INLINE double pixel_mean_of_term(std::size_t term) {
 
 FREQSYNTH_INLINE void forward_dct(std::span<const float, max_terms> pixels,
                                   std::span<float, max_terms> coefficients) {
-  const detail::PixelCosines& table = detail::pixel_cosines();
-  detail::AlignedBlock out;
-  detail::forward_transform(pixels.data(), table.forward.data(), table.scales.data(), out.data());
-  for (std::size_t i = 0; i < max_terms; ++i) coefficients[i] = out[detail::zigzag_to_row_major[i]];
+  detail::AlignedBlock rows;
+  detail::transform_to_rows(pixels, rows);
+  detail::to_zigzag(rows, coefficients);
 }
 
 FREQSYNTH_INLINE void inverse_dct(std::span<const float, max_terms> coefficients,
@@ -88,16 +99,14 @@ FREQSYNTH_INLINE void inverse_dct(std::span<const float, max_terms> coefficients
   if (terms == 0 || terms > max_terms) {
     detail::refuse("inverse_dct: terms is " + std::to_string(terms) + ", not in 1..64");
   }
-  const detail::PixelCosines& table = detail::pixel_cosines();
-  detail::AlignedBlock amplitudes;
-  for (std::size_t place = 0; place < max_terms; ++place) {
-    const std::size_t term = detail::row_major_to_zigzag[place];
-    amplitudes[place] = term < terms ? coefficients[term] * table.amplitudes[term] : 0;
+  std::array<float, max_terms> amplitudes;
+  for (std::size_t i = 0; i < max_terms; ++i) {
+    amplitudes[i] = i < terms ? coefficients[i] * detail::coefficient_amplitudes[i] : 0;
   }
-  detail::AlignedBlock out;
-  detail::evaluate_separable(amplitudes.data(), table.by_frequency.data(), block_size, block_size,
-                             table.by_pixel.data(), block_size, out.data(), block_size);
-  for (std::size_t i = 0; i < max_terms; ++i) pixels[i] = out[i];
+  detail::AlignedBlock rows, out;
+  detail::to_row_major(amplitudes, rows);
+  detail::evaluate_rows(rows, out);
+  std::copy(out.begin(), out.end(), pixels.begin());
 }
 
 FREQSYNTH_INLINE double evaluate_block(std::span<const float, max_terms> coefficients, double s,

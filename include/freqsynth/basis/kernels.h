@@ -86,7 +86,8 @@ using AddOuterProduct = void(double* matrix, const double* x, double scale, std:
 using Multiply = void(const double* matrix, const double* x, std::size_t terms, double* out);
 
 /// out(j) = (sums(j) - row j of `matrix` . amplitudes) * shares(j) for 64 rows of 64 floats.
-/// All arrays are aligned to 64 bytes.
+/// Rows of 16 amplitudes at the end that are all zero take no time. All arrays but `sums` are
+/// aligned to 64 bytes.
 using ResidualMeans = void(const float* matrix, const float* amplitudes, const float* sums,
                            const float* shares, float* out);
 
@@ -155,7 +156,7 @@ using ExtremesAround = bool(const PaddedBlock& low, const PaddedBlock& high, con
 /// from the median; where `counts`, how many are known of each 3 x 3, is less than 4, to `whole`.
 using ClampAround = void(const PaddedBlock& low, const float* least, const float* most,
                          const float* counts, float slack, const float* whole, float* pixels);
-/// See OwnMeans::hold(). `means` are 10 rows.
+/// See OwnMeans::hold(). `means` are 10 rows; they and the pixels lie anywhere in memory.
 /// \param alike     greatest difference of means that are the same
 /// \param most_off  greatest difference of a pixel that is held if not all around are the same
 using HoldFlat = void(const float* means, std::size_t stride, float alike, float most_off,

@@ -4,23 +4,38 @@
 
 namespace freqsynth::detail::FREQSYNTH_KERNEL_SET {
 
+/// How many of 64 numbers there are up to the last ones, in sixteens, that are not all zero.
+FREQSYNTH_KERNEL_INLINE std::size_t used_of(const float* values) {
+  constexpr std::size_t some = 16;
+  std::size_t count = max_terms;
+  for (; count > 0; count -= some) {
+    unsigned long long words[some / 2], any = 0;
+    __builtin_memcpy(words, values + count - some, sizeof words);
+    for (const unsigned long long word : words) any |= word;
+    if (any != 0) break;
+  }
+  return count;
+}
+
 FREQSYNTH_KERNEL
 void residual_means(const float* matrix, const float* amplitudes, const float* sums,
                     const float* shares, float* out) {
   FREQSYNTH_KERNEL_BEGIN
   using Part = Pack<float, 16>;
   using Four = Pack<float, 4>;
+  // A fit of few samples has few terms; adding zeros changes nothing.
+  const std::size_t used = used_of(amplitudes);
   for (std::size_t j = 0; j < max_terms; j += 4) {
     const float* row = matrix + j * max_terms;
     Part fits[4] = {};
-    for (std::size_t i = 0; i < max_terms; i += 16) {
+    for (std::size_t i = 0; i < used; i += 16) {
       const Part amplitude = Part::load(amplitudes + i);
       for (std::size_t k = 0; k < 4; ++k) {
         fits[k] += Part::load(row + k * max_terms + i) * amplitude;
       }
     }
     const Four sum = sums_of(folded(fits[0]), folded(fits[1]), folded(fits[2]), folded(fits[3]));
-    ((Four::load(sums + j) - sum) * Four::load(shares + j)).store(out + j);
+    ((Four::load_unaligned(sums + j) - sum) * Four::load(shares + j)).store(out + j);
   }
 }
 
@@ -113,29 +128,23 @@ FREQSYNTH_KERNEL
 void forward_transform(const float* pixels, const double* cosines, const double* scales,
                        float* out) {
   FREQSYNTH_KERNEL_BEGIN
-  // As many frequencies at a time as there are registers for.
-  constexpr std::size_t lanes = FREQSYNTH_KERNEL_BYTES == 64 ? 8 : FREQSYNTH_KERNEL_BYTES / 8;
-  using Part = Pack<double, lanes>;
-  for (std::size_t u = 0; u < block_size; u += lanes) {
-    Part rows[block_size];
-    for (std::size_t y = 0; y < block_size; ++y) {
-      Part sum = {};
-      for (std::size_t x = 0; x < block_size; ++x) {
-        sum += static_cast<double>(pixels[y * block_size + x]) *
-               Part::load(cosines + x * block_size + u);
-      }
-      rows[y] = sum;
+  alignas(64) double values[max_terms], rows[max_terms];
+  for (std::size_t i = 0; i < max_terms; ++i) values[i] = static_cast<double>(pixels[i]);
+  for (std::size_t y = 0; y < block_size; ++y) {
+    Double8 sum = {};
+    for (std::size_t x = 0; x < block_size; ++x) {
+      sum += values[y * block_size + x] * Double8::load(cosines + x * block_size);
     }
-    for (std::size_t v = 0; v < block_size; ++v) {
-      Part sum = {};
-      for (std::size_t y = 0; y < block_size; ++y) sum += cosines[y * block_size + v] * rows[y];
-      alignas(64) double scaled[lanes];
-      (Part::load(scales + v * block_size + u) * sum).store(scaled);
-      for (std::size_t i = 0; i < lanes; ++i) {
-        out[v * block_size + u + i] = static_cast<float>(scaled[i]);
-      }
-    }
+    sum.store(rows + y * block_size);
   }
+  for (std::size_t v = 0; v < block_size; ++v) {
+    Double8 sum = {};
+    for (std::size_t y = 0; y < block_size; ++y) {
+      sum += cosines[y * block_size + v] * Double8::load(rows + y * block_size);
+    }
+    (Double8::load(scales + v * block_size) * sum).store(values + v * block_size);
+  }
+  for (std::size_t i = 0; i < max_terms; ++i) out[i] = static_cast<float>(values[i]);
 }
 
 FREQSYNTH_KERNEL

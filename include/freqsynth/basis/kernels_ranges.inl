@@ -251,7 +251,7 @@ void hold_flat(const float* means, std::size_t stride, float alike, float most_o
         count += if_less(most, distance, Float8{}, one);
       }
     }
-    const Float8 pixel = Float8::load(pixels + y * block_size);
+    const Float8 pixel = Float8::load_unaligned(pixels + y * block_size);
     const Float8 held = if_less(pixel, low, low, if_less(high, pixel, high, pixel));
     const Float8 off = pixel - held;
     const Float8 distance = greater(off, Float8{} - off);
@@ -259,7 +259,8 @@ void hold_flat(const float* means, std::size_t stride, float alike, float most_o
     const Float8 limit = all_lanes<Float8>(most_off), none = all_lanes<Float8>(PaddedBlock::none);
     const Float8 close = if_less(limit, distance, pixel, held);
     const Float8 either = if_less(all, count, held, close);
-    if_less(low, none, if_less(few, count, either, pixel), pixel).store(pixels + y * block_size);
+    if_less(low, none, if_less(few, count, either, pixel), pixel)
+        .store_unaligned(pixels + y * block_size);
   }
 }
 

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "freqsynth/basis/aligned.h"
 #include "freqsynth/basis/config.h"
 #include "freqsynth/image/pixel_filter.h"
 
@@ -15,10 +16,10 @@ namespace freqsynth::detail {
 
 /// The pixels of the output that one column (or row) of blocks contributes to.
 struct AxisBlock {
-  std::size_t first = 0;       ///< first output pixel
-  std::size_t count = 0;       ///< how many
-  std::size_t begun = 0;       ///< so many of the first ones have begun in earlier blocks
-  std::vector<float> weights;  ///< of cos(pi u s) in each pixel
+  std::size_t first = 0;         ///< first output pixel
+  std::size_t count = 0;         ///< how many
+  std::size_t begun = 0;         ///< so many of the first ones have begun in earlier blocks
+  AlignedVector<float> weights;  ///< of cos(pi u s) in each pixel
 };
 
 /// `count` rounded up to whole vectors of the kernel.

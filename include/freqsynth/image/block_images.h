@@ -4,7 +4,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <span>
@@ -67,16 +66,16 @@ void finish_smoothly(const FinishJob<R>& job, std::span<const std::size_t> featu
   share_work(executor, tiles.size(), [&](WorkPieces& pieces) {
     TileFinisher<R> finisher(job);
     auto sink = make_sink();
-    std::array<float, max_terms> own;
+    AlignedBlock own;
     for (std::size_t piece; pieces.take(piece);) {
       finisher.finish(tiles.tile(piece),
                       [&](const PixelFinisher& pixels, const BlockFit& fit, std::size_t block,
-                          std::size_t c, std::span<const float, max_terms> coefficients) {
+                          std::size_t c, const AlignedBlock& rows) {
                         if (picture.has(c)) {
-                          picture.add(pixels, fit, block, c, coefficients);
+                          picture.add(pixels, fit, block, c, rows);
                         } else {
-                          BlockPicture::pass(coefficients, sink.positive(c), own);
-                          sink.put(block, c, own);
+                          BlockPicture::pass(rows, sink.positive(c), own);
+                          sink.put_rows(block, c, own);
                         }
                       });
     }
@@ -84,7 +83,7 @@ void finish_smoothly(const FinishJob<R>& job, std::span<const std::size_t> featu
   picture.smooth(executor);
   share_work(executor, tiles.size(), [&](WorkPieces& pieces) {
     auto sink = make_sink();
-    std::array<float, max_terms> coefficients;
+    AlignedBlock rows;
     for (std::size_t piece; pieces.take(piece);) {
       const BlockRange tile = tiles.tile(piece);
       for (std::size_t place = 0; place < tile.size(); ++place) {
@@ -92,8 +91,8 @@ void finish_smoothly(const FinishJob<R>& job, std::span<const std::size_t> featu
             (tile.top + place / tile.width()) * tiles.blocks_x + tile.left + place % tile.width();
         for (std::size_t c = 0; c < job.blocks.channels(); ++c) {
           if (!picture.has(c)) continue;
-          picture.take(block, c, sink.positive(c), coefficients);
-          sink.put(block, c, coefficients);
+          picture.take(block, c, sink.positive(c), rows);
+          sink.put_rows(block, c, rows);
         }
       }
     }
@@ -121,9 +120,7 @@ void finish_blocks(const BlockGrid& grid, const BlockSnapshot<R>& blocks,
     for (std::size_t piece; pieces.take(piece);) {
       finisher.finish(tiles.tile(piece),
                       [&](const PixelFinisher&, const BlockFit&, std::size_t block, std::size_t c,
-                          std::span<const float, max_terms> coefficients) {
-                        sink.put(block, c, coefficients);
-                      });
+                          const AlignedBlock& rows) { sink.put_rows(block, c, rows); });
     }
   });
 }

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "freqsynth/basis/aligned.h"
 #include "freqsynth/basis/config.h"
 #include "freqsynth/basis/dct.h"
 #include "freqsynth/engine/block_grid.h"
@@ -44,11 +45,12 @@ class BlockPicture {
   /// Whether a channel is in the picture.
   [[nodiscard]] bool has(std::size_t channel) const { return planes_[channel] != none; }
 
-  /// Takes what the samples of a block say, and its finished coefficients.
+  /// Takes what the samples of a block say, and its finished coefficients, row by row.
   void add(const PixelFinisher& finisher, const BlockFit& fit, std::size_t block,
-           std::size_t channel, std::span<const float, max_terms> coefficients) {
-    std::array<float, max_terms> weights, sums, pixels;
-    inverse_dct(coefficients, pixels);
+           std::size_t channel, const AlignedBlock& rows) {
+    std::array<float, max_terms> weights, sums;
+    AlignedBlock pixels;
+    evaluate_coefficients(rows, pixels);
     finisher.pixel_samples(fit, pixels, weights, sums);
     const std::size_t plane = planes_[channel];
     picture_.variances[plane][block] = fit.residual;
@@ -64,28 +66,32 @@ class BlockPicture {
     smooth_noise_on(picture_, smoothed_, features_, executor);
   }
 
-  /// The coefficients of a block.
+  /// The coefficients of a block, row by row.
   /// \param positive  no pixel is to be below zero
-  void take(std::size_t block, std::size_t channel, bool positive,
-            std::span<float, max_terms> coefficients) const {
-    std::array<float, max_terms> pixels;
+  void take(std::size_t block, std::size_t channel, bool positive, AlignedBlock& rows) const {
+    AlignedBlock pixels;
     const NoisyPicture::Plane& plane = picture_.pixels[planes_[channel]];
     visit(block, [&](std::size_t cell, std::size_t pixel) { pixels[cell] = plane[pixel]; });
     if (positive) lift_negative(pixels);
-    forward_dct(pixels, coefficients);
+    transform_to_rows(pixels, rows);
   }
   /// What becomes of the coefficients of a channel that is not in the picture.
-  static void pass(std::span<const float, max_terms> coefficients, bool positive,
-                   std::span<float, max_terms> out) {
-    std::array<float, max_terms> pixels;
-    inverse_dct(coefficients, pixels);
+  static void pass(const AlignedBlock& rows, bool positive, AlignedBlock& out) {
+    AlignedBlock pixels;
+    evaluate_coefficients(rows, pixels);
     if (positive) lift_negative(pixels);
-    forward_dct(pixels, out);
+    transform_to_rows(pixels, out);
   }
 
  private:
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
+  /// Eq. 2.
+  static void evaluate_coefficients(const AlignedBlock& rows, AlignedBlock& pixels) {
+    AlignedBlock amplitudes;
+    for (std::size_t i = 0; i < max_terms; ++i) amplitudes[i] = rows[i] * row_major_amplitudes[i];
+    evaluate_rows(amplitudes, pixels);
+  }
   /// Gives a channel the next plane, unless it has one.
   void use(std::size_t channel, std::vector<std::size_t>& planes) {
     if (has(channel)) return;

@@ -42,8 +42,11 @@ class FREQSYNTH_API BlockPixels {
   void go_to(const AxisBlock& column, const AxisBlock& row, std::size_t first, std::size_t last);
 
   /// Computes the pixels of a channel.
+  /// \param coefficients  in zig-zag order, like the factors
   void compute(std::span<const float, max_terms> coefficients,
                const std::array<float, max_terms>& factors);
+  /// The same of amplitudes of a point function, row by row (v, u), on a cache line.
+  void compute(const AlignedBlock& amplitudes);
   /// No block takes light away where there is none that is negative.
   void clamp_negative();
   /// Writes the pixels, or adds them to those that an earlier block has begun.
@@ -54,8 +57,7 @@ class FREQSYNTH_API BlockPixels {
   const AxisBlock* row_ = nullptr;
   std::size_t first_ = 0, count_ = 0;  // rows
   std::size_t stride_ = 0;
-  AlignedBlock amplitudes_;
-  AlignedVector<float> weights_, pixels_;
+  AlignedVector<float> pixels_;
 };
 
 }  // namespace freqsynth::detail

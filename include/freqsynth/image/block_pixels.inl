@@ -39,16 +39,20 @@ FREQSYNTH_INLINE void BlockPixels::go_to(const AxisBlock& column, const AxisBloc
   first_ = first;
   count_ = last - first;
   stride_ = padded(column.count);
-  weights_.assign(column.weights.begin(), column.weights.end());
   pixels_.resize(count_ * stride_);
 }
 
 FREQSYNTH_INLINE void BlockPixels::compute(std::span<const float, max_terms> coefficients,
                                            const std::array<float, max_terms>& factors) {
-  for (std::size_t i = 0; i < max_terms; ++i) {
-    amplitudes_[zigzag_to_row_major[i]] = coefficients[i] * factors[i];
-  }
-  evaluate_separable(amplitudes_.data(), weights_.data(), stride_, stride_,
+  std::array<float, max_terms> amplitudes;
+  for (std::size_t i = 0; i < max_terms; ++i) amplitudes[i] = coefficients[i] * factors[i];
+  AlignedBlock rows;
+  to_row_major(amplitudes, rows);
+  compute(rows);
+}
+
+FREQSYNTH_INLINE void BlockPixels::compute(const AlignedBlock& amplitudes) {
+  evaluate_separable(amplitudes.data(), column_->weights.data(), stride_, stride_,
                      row_->weights.data() + first_ * block_size, count_, pixels_.data(), stride_);
 }
 
@@ -69,6 +73,11 @@ FREQSYNTH_INLINE void BlockPixels::write(const PixelView& out, std::size_t chann
     // Pixels that an earlier block has begun: first rows, or the first ones of a row.
     const bool begun_row = first_ + r < row_->begun;
     const std::size_t begun = begun_row ? count : std::min(column_->begun, count);
+    if (begun == 0 && count == block_size) {
+      float* to = line;
+      for (std::size_t c = 0; c < block_size; ++c, to += step) *to = source[c];
+      continue;
+    }
     for (std::size_t c = 0; c < begun; ++c) {
       line[static_cast<std::ptrdiff_t>(c) * step] += source[c];
     }

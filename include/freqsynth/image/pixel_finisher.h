@@ -67,6 +67,10 @@ class FREQSYNTH_API PixelFinisher {
   void finish(const BlockFit& fit, std::span<float, max_terms> out,
               const PixelEvidence& evidence = {}) const;
 
+  /// The same coefficients row by row (v, u).
+  void finish_rows(const BlockFit& fit, detail::AlignedBlock& out,
+                   const PixelEvidence& evidence = {}) const;
+
   /// How many samples each pixel of a block has, by area, and their sums. A sample that was a gap
   /// counts as much as the pixel's others on average; where there is none, `otherwise` stands for
   /// them.
@@ -74,7 +78,7 @@ class FREQSYNTH_API PixelFinisher {
                      std::span<float, max_terms> weights, std::span<float, max_terms> sums) const;
 
  private:
-  void finish_without_gaps(const BlockFit& fit, std::span<float, max_terms> out,
+  void finish_without_gaps(const BlockFit& fit, detail::AlignedBlock& out,
                            const PixelEvidence& evidence) const;
   void leave_out(std::span<const Gap> gaps, std::span<float, max_terms> weights,
                  std::span<float, max_terms> sums) const;
@@ -97,7 +101,7 @@ class FREQSYNTH_API PixelFinisher {
   const detail::ButterworthFilters* filters_;
   FinishSettings settings_;
   std::size_t samples_ = 0;
-  std::array<float, max_terms> box_;     // mean over a pixel of each term, relative to its centre
+  detail::AlignedBlock box_;  // mean over a pixel of each term, row-major, relative to its centre
   std::array<float, max_terms> filter_;  // Butterworth factors
   OwnedSamples owned_;
   SharedBorder border_;

@@ -36,6 +36,18 @@ inline void count_around(const AlignedBlock& weights, AlignedBlock& counts) {
   for (std::size_t x = 0; x < side; ++x) add_line(&rows[x], side, &counts[x]);
 }
 
+/// Whether a pixel lies outside of what is known around it, and that is too little.
+inline bool any_lonely(const AlignedBlock& counts, const AlignedBlock& least,
+                       const AlignedBlock& most, std::span<const float, max_terms> pixels) {
+  constexpr float few = 4;
+  int any = 0;
+  for (std::size_t i = 0; i < max_terms; ++i) {
+    const int outside = (pixels[i] < least[i] ? 1 : 0) | (pixels[i] > most[i] ? 1 : 0);
+    any |= outside & (counts[i] < few ? 1 : 0);
+  }
+  return any != 0;
+}
+
 }  // namespace detail
 
 FREQSYNTH_INLINE PixelFinisher::PixelFinisher(SharedInverseList list,
@@ -44,7 +56,9 @@ FREQSYNTH_INLINE PixelFinisher::PixelFinisher(SharedInverseList list,
     : list_(std::move(list)), filters_(filters), settings_(settings), sums_(max_terms * max_terms) {
   settings.validate();
   if (!list_) detail::refuse("there is no inverse list");
-  for (std::size_t i = 0; i < max_terms; ++i) box_[i] = static_cast<float>(pixel_mean_of_term(i));
+  for (std::size_t i = 0; i < max_terms; ++i) {
+    box_[detail::zigzag_to_row_major[i]] = static_cast<float>(pixel_mean_of_term(i));
+  }
   restart();
 }
 
@@ -172,28 +186,25 @@ FREQSYNTH_INLINE void PixelFinisher::bound(const BlockFit& fit, std::span<float,
   detail::least_and_most(means.low, means.high, ends.data());
   const auto [low, high] = ends;
   const auto slack = static_cast<float>(settings_.slack);
-  // A fit that leaves nothing over does not ring; it knows peaks that lie between samples. Most
-  // blocks need no median to know that.
+  // A fit that leaves nothing over does not ring; it knows peaks that lie between samples.
   constexpr float share = 0.01f;
-  const float about = (high - low) * (1 + slack);
-  const float rounding = 1e-6f * (std::abs(low) + std::abs(high) + about);
-  const float surely = share * (about - rounding);
-  if (surely > 0 && fit.residual <= 0.9999f * surely * surely) return;
-  // The slack on each side is in proportion to the distance from the median, so that a few bright
-  // pixels beside many dark ones widen the range of the bright only.
-  const float middle = detail::value_of_rank(means.low, known / 2, low, high);
-  const std::array<float, 2> whole = {low - slack * (middle - low), high + slack * (high - middle)};
-  const float visible = share * (whole[1] - whole[0]);
+  const float visible = share * (high - low) * (1 + slack);
   if (fit.residual <= visible * visible) return;
   detail::AlignedBlock least, most;
   // Most are within what is shown around, which is cheaper to know than the medians there.
   if (detail::extremes_around(means.low, means.high, pixels.data(), least.data(), most.data())) {
+    std::array<float, 2> whole = ends;
+    if (detail::any_lonely(means.counts, least, most, pixels)) {
+      // The slack on each side is in proportion to the distance from the median, so that a few
+      // bright pixels beside many dark ones widen the range of the bright only.
+      const float middle = detail::value_of_rank(means.low, known / 2, low, high);
+      whole = {low - slack * (middle - low), high + slack * (high - middle)};
+    }
     detail::clamp_around(means.low, least.data(), most.data(), means.counts.data(), slack,
                          whole.data(), pixels.data());
   }
   if (settings_.ringing == 0) return;
-  const float range = (whole[1] - whole[0]) / (1 + slack);
-  OwnMeans(evidence.own_means).hold(pixels, range, static_cast<float>(settings_.ringing));
+  OwnMeans(evidence.own_means).hold(pixels, high - low, static_cast<float>(settings_.ringing));
 }
 
 /// Takes samples out of the number of samples of each pixel and of their sums.
@@ -226,7 +237,7 @@ FREQSYNTH_INLINE void PixelFinisher::pixel_samples(const BlockFit& fit,
 
 /// As if the samples that are gaps had not been taken.
 FREQSYNTH_INLINE void PixelFinisher::finish_without_gaps(const BlockFit& fit,
-                                                         std::span<float, max_terms> out,
+                                                         detail::AlignedBlock& out,
                                                          const PixelEvidence& evidence) const {
   PixelFinisher others(*this);
   std::array<float, max_terms> pixel_sums;
@@ -239,7 +250,7 @@ FREQSYNTH_INLINE void PixelFinisher::finish_without_gaps(const BlockFit& fit,
     if (weight < detail::least_weight) weight = 0;
   }
   others.weigh();
-  others.finish({fit.coefficients, pixel_sums, fit.residual}, out, evidence);
+  others.finish_rows({fit.coefficients, pixel_sums, fit.residual}, out, evidence);
 }
 
 FREQSYNTH_INLINE std::vector<Gap> PixelFinisher::foreign_samples(
@@ -250,28 +261,35 @@ FREQSYNTH_INLINE std::vector<Gap> PixelFinisher::foreign_samples(
 
 FREQSYNTH_INLINE void PixelFinisher::finish(const BlockFit& fit, std::span<float, max_terms> out,
                                             const PixelEvidence& evidence) const {
+  detail::AlignedBlock rows;
+  finish_rows(fit, rows, evidence);
+  detail::to_zigzag(rows, out);
+}
+
+FREQSYNTH_INLINE void PixelFinisher::finish_rows(const BlockFit& fit, detail::AlignedBlock& out,
+                                                 const PixelEvidence& evidence) const {
   if (!fit.gaps.empty()) return finish_without_gaps(fit, out, evidence);
-  detail::AlignedBlock filtered;
+  detail::AlignedBlock filtered, rows;
   filter(fit, filtered);
-  for (std::size_t i = 0; i < max_terms; ++i) out[i] = filtered[i] * box_[i];
+  detail::to_row_major(filtered, rows);
+  for (std::size_t i = 0; i < max_terms; ++i) out[i] = rows[i] * box_[i];
   if (!settings_.residuals || samples_ == 0) return;
 
-  detail::AlignedBlock amplitudes, means, sums, pixels;
-  for (std::size_t i = 0; i < max_terms; ++i) {
-    amplitudes[detail::zigzag_to_row_major[i]] = filtered[i] * detail::coefficient_amplitudes[i];
-  }
-  std::copy(fit.pixel_sums.begin(), fit.pixel_sums.end(), sums.begin());
-  detail::residual_means(sums_.data(), amplitudes.data(), sums.data(), inverse_weights_.data(),
-                         means.data());
+  const auto& scale = detail::row_major_amplitudes;
+  detail::AlignedBlock amplitudes, means, pixels;
+  for (std::size_t i = 0; i < max_terms; ++i) amplitudes[i] = rows[i] * scale[i];
+  detail::residual_means(sums_.data(), amplitudes.data(), fit.pixel_sums.data(),
+                         inverse_weights_.data(), means.data());
   const bool noisy = settings_.noise == Noise::present;
   const bool measure = noisy && settings_.measure_doubt && samples_ >= max_terms;
   const double usual = noisy ? settings_.noisy_doubt : settings_.doubt;
   const auto doubt = static_cast<float>(measure ? measured_doubt(fit, filtered, means) : usual);
-  inverse_dct(out, pixels);
+  for (std::size_t i = 0; i < max_terms; ++i) amplitudes[i] = out[i] * scale[i];
+  detail::evaluate_rows(amplitudes, pixels);
   detail::add_means(means.data(), weights_.data(), doubt, pixels.data());
   if (detail::is_finite(settings_.slack)) bound(fit, pixels, evidence);
   if (settings_.keep_positive && evidence.positive) detail::lift_negative(pixels);
-  forward_dct(pixels, out);
+  detail::transform_to_rows(pixels, out);
 }
 
 }  // namespace freqsynth

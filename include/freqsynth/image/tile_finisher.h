@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "freqsynth/basis/aligned.h"
@@ -90,7 +91,8 @@ class TileFinisher {
         channels_(job.blocks.channels()),
         finisher_(job.list, job.settings, &job.filters) {}
 
-  /// Calls take(finisher, fit, block, channel, coefficients) for all channels of all blocks.
+  /// Calls take(finisher, fit, block, channel, coefficients row by row) for all channels of all
+  /// blocks.
   template <class Take>
   void finish(const BlockRange& tile, Take&& take);
 
@@ -107,6 +109,7 @@ class TileFinisher {
   }
   void read(const BlockRange& tile);
   void compare();
+  void join_along_rows();
   void compare_without_gaps(const OwnedSamples& all, std::span<const float> own_sums,
                             std::span<const Gap> gaps, std::size_t at);
   [[nodiscard]] PixelEvidence evidence(std::size_t place, std::size_t channel) const;
@@ -119,7 +122,7 @@ class TileFinisher {
   BlockRange all_;
   std::vector<std::uint64_t> order_;        // places, those of fewer samples first, below these
   AlignedVector<float> states_;             // [place]
-  std::vector<PixelAgreement> agreements_;  // [place][channel]
+  std::vector<PixelAgreement> agreements_;  // [place][channel], of it and those beside it
   AlignedVector<float> means_;              // [place][channel][pixel]
 };
 
@@ -133,7 +136,7 @@ void TileFinisher<R>::finish(const BlockRange& tile, Take&& take) {
   if (residuals) compare();
   finisher_.restart();
   std::vector<Gap> gaps;
-  std::array<float, max_terms> coefficients;
+  AlignedBlock rows;
   for (const std::uint64_t entry : order_) {
     const auto place = static_cast<std::uint32_t>(entry);
     const std::size_t block = block_at(place);
@@ -145,12 +148,12 @@ void TileFinisher<R>::finish(const BlockRange& tile, Take&& take) {
       const BlockFit fit = job_.blocks.fit_without_gaps(block, state(place), c, gaps);
       const std::vector<Gap> foreign = finisher_.foreign_samples(fit, known);
       if (foreign.empty()) {
-        finisher_.finish(fit, coefficients, known);
+        finisher_.finish_rows(fit, rows, known);
       } else {
-        finisher_.finish(job_.blocks.fit_without(block, state(place), c, foreign), coefficients,
-                         known);
+        finisher_.finish_rows(job_.blocks.fit_without(block, state(place), c, foreign), rows,
+                              known);
       }
-      take(finisher_, fit, block, c, std::span<const float, max_terms>(coefficients));
+      take(finisher_, fit, block, c, std::as_const(rows));
     }
   }
 }
@@ -195,6 +198,24 @@ void TileFinisher<R>::compare() {
       }
     }
   }
+  join_along_rows();
+}
+
+/// Joins with each agreement those of the blocks on both sides.
+template <Refiner R>
+void TileFinisher<R>::join_along_rows() {
+  const std::size_t row = all_.width() * channels_;
+  for (std::size_t first = 0; first < agreements_.size(); first += row) {
+    for (std::size_t c = 0; c < channels_; ++c) {
+      PixelAgreement before;
+      for (std::size_t at = first + c; at < first + row; at += channels_) {
+        const PixelAgreement own = agreements_[at];
+        agreements_[at].join(before);
+        if (at + channels_ < first + row) agreements_[at].join(agreements_[at + channels_]);
+        before = own;
+      }
+    }
+  }
 }
 
 template <Refiner R>
@@ -217,16 +238,20 @@ void TileFinisher<R>::compare_without_gaps(const OwnedSamples& all, std::span<co
 
 template <Refiner R>
 PixelEvidence TileFinisher<R>::evidence(std::size_t place, std::size_t channel) const {
-  const std::size_t x = place % all_.width(), y = place / all_.width();
+  const std::size_t width = all_.width();
+  const std::size_t x = place % width, y = place / width;
   PixelEvidence evidence;
   PixelAgreement around;
-  for (std::size_t k = 0; k < 9; ++k) {
+  for (std::size_t k = 0; k < 3; ++k) {
     // One less than 0 is beyond the end, too.
-    const std::size_t u = x + k % 3 - 1, v = y + k / 3 - 1;
-    if (u >= all_.width() || v >= all_.bottom - all_.top) continue;
-    const std::size_t at = (v * all_.width() + u) * channels_ + channel;
+    if (y + k - 1 >= all_.bottom - all_.top) continue;
+    const std::size_t at = ((y + k - 1) * width + x) * channels_ + channel;
     around.join(agreements_[at]);
-    evidence.own_means[k] = means_.data() + at * max_terms;
+    const float* const means = means_.data() + at * max_terms;
+    const std::size_t step = channels_ * max_terms;
+    if (x > 0) evidence.own_means[3 * k] = means - step;
+    evidence.own_means[3 * k + 1] = means;
+    if (x + 1 < width) evidence.own_means[3 * k + 2] = means + step;
   }
   evidence.constant_pixels = around.holds();
   evidence.positive = !job_.blocks.any_negative(channel);
