@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
 // How long a thread that renders is kept waiting while another one makes a preview of 1920 x 1080
 // pixels, RGB: the image of the fit, a finished one, finished pixels. A turn is a request of 1024
-// samples, their values and their delivery. The time of a case is the longest turn that began
-// during a preview, as the mean of the previews; the counters are in milliseconds: the longest of
-// all, the mean turn without a preview, the mean preview. Needs two processors.
+// samples, their values and their delivery. The time of a case is the longest request or delivery
+// that began during a preview, on the clock, as the mean of the previews: with other programs
+// about, mostly time that the system gave to these. The counters, in milliseconds, tell them apart,
+// see call_times.h: `wait` are requests and deliveries during previews, `alone` those before them,
+// and `sampling` the values, which wait for nobody: what is lost there is lost to other programs.
+// `preview` is the mean preview. Needs two processors.
 
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstddef>
@@ -15,6 +17,7 @@
 #include <thread>
 #include <vector>
 
+#include "call_times.h"
 #include "fixtures.h"
 
 namespace freqsynth::bench {
@@ -30,14 +33,18 @@ class Renderer {
     engine_.set_stop({});
   }
 
-  /// \return the seconds that it took
-  double turn() {
-    const auto start = Clock::now();
-    const auto asked = std::span<const Request>(requests_).first(engine_.request(requests_));
+  void turn(CallTimes& calls, CallTimes& sampling) {
+    const std::span<const Request> asked = std::span<const Request>(requests_).first(
+        calls.measure([&] { return engine_.request(requests_); }));
     const auto values = std::span(values_).first(asked.size() * engine_.channels());
-    DiscScene{}(asked, values);
-    engine_.deliver(asked, values);
-    return seconds_between(start, Clock::now());
+    sampling.measure([&] {
+      DiscScene{}(asked, values);
+      return asked.size();
+    });
+    calls.measure([&] {
+      engine_.deliver(asked, values);
+      return asked.size();
+    });
   }
 
  private:
@@ -52,10 +59,10 @@ void preview(benchmark::State& state, const Look& look) {
   const auto engine = sampled_engine(1920, 1080, 0.25);
   Renderer renderer(*engine);
   constexpr int turns = 1000;
-  double alone = 0;
-  for (int i = 0; i < turns; ++i) alone += renderer.turn();
+  CallTimes alone, waits, sampling;
+  for (int i = 0; i < turns; ++i) renderer.turn(alone, sampling);
 
-  double longest = 0, previews = 0;
+  double previews = 0;
   for (auto _ : state) {
     std::atomic<bool> begun = false, done = false;
     double preview_seconds = 0;
@@ -67,18 +74,20 @@ void preview(benchmark::State& state, const Look& look) {
       done = true;
     });
     while (!begun) std::this_thread::yield();
-    double worst = 0;
-    while (!done) worst = std::max(worst, renderer.turn());
+    CallTimes own;
+    while (!done) renderer.turn(own, sampling);
     viewer.join();
-    state.SetIterationTime(worst);
-    longest = std::max(longest, worst);
+    state.SetIterationTime(own.longest());
+    waits.add(own);
     previews += preview_seconds;
   }
-  state.counters["longest_ms"] = 1e3 * longest;
-  state.counters["alone_ms"] = 1e3 * alone / turns;
-  state.counters["preview_ms"] =
+  waits.report(state, "wait");
+  alone.report(state, "alone");
+  sampling.report(state, "sampling");
+  state.counters["preview"] =
       benchmark::Counter(1e3 * previews, benchmark::Counter::kAvgIterations);
 }
+
 void image(benchmark::State& state) {
   preview(state, [](const Synthesizer& engine) {
     const FrequencyImage result = engine.image();
