@@ -142,6 +142,18 @@ inline std::string file_name(const char* file) {
   return file;
 }
 
+static_assert(FREQSYNTH_STOP_SAMPLES == 1 + static_cast<int>(StopReason::samples));
+static_assert(FREQSYNTH_STOP_THRESHOLD == 1 + static_cast<int>(StopReason::threshold));
+static_assert(FREQSYNTH_STOP_EXHAUSTED == 1 + static_cast<int>(StopReason::exhausted));
+static_assert(FREQSYNTH_STOP_CANCELLED == 1 + static_cast<int>(StopReason::cancelled));
+static_assert(FREQSYNTH_STOP_WAITING == 1 + static_cast<int>(StopReason::waiting));
+static_assert(FREQSYNTH_STOP_UNUSABLE == 1 + static_cast<int>(StopReason::unusable));
+static_assert(FREQSYNTH_STOP_SECONDS == 1 + static_cast<int>(StopReason::seconds));
+static_assert(FREQSYNTH_STOP_TARGET_RMSE == 1 + static_cast<int>(StopReason::target_rmse));
+/// As the host sees it.
+inline std::int32_t reason_of(StopReason reason) { return 1 + static_cast<std::int32_t>(reason); }
+freqsynth_progress progress_of(const Progress& now);
+
 SynthesisSettings settings_of(const freqsynth_settings* settings);
 StopRule stop_rule_of(const freqsynth_stop_rule* rule);
 FinishSettings finish_settings_of(const freqsynth_finish_settings* settings);
