@@ -6,19 +6,7 @@
 #include <span>
 
 #include "freqsynth/basis/kernels.h"
-
-// No multiplication is fused with an addition, and no sum reordered, even where the host's flags
-// allow it: gcc by default fuses wherever the instruction set can, and obeys an attribute; clang
-// fuses within one expression only, and obeys a pragma. Only what -ffast-math and
-// -ffp-contract=fast let clang do is beyond reach; without the instruction, which AVX-512 always
-// has, it at least cannot fuse.
-#if defined(__clang__)
-#define FREQSYNTH_KERNEL_ROUNDING
-#define FREQSYNTH_KERNEL_BEGIN _Pragma("clang fp contract(off)")
-#else
-#define FREQSYNTH_KERNEL_ROUNDING __attribute__((optimize("no-fast-math", "fp-contract=off")))
-#define FREQSYNTH_KERNEL_BEGIN
-#endif
+#include "freqsynth/basis/rounding.h"
 
 // Windows aligns the stack to 16 bytes, to which gcc's code for AVX does not adapt.
 #if defined(__x86_64__) && !defined(_WIN32)
@@ -28,7 +16,7 @@
 #endif
 #endif
 
-#define FREQSYNTH_KERNEL inline FREQSYNTH_KERNEL_TARGET FREQSYNTH_KERNEL_ROUNDING
+#define FREQSYNTH_KERNEL inline FREQSYNTH_KERNEL_TARGET FREQSYNTH_ROUNDING
 #define FREQSYNTH_KERNEL_INLINE FREQSYNTH_KERNEL __attribute__((always_inline))
 
 #define FREQSYNTH_KERNEL_SET plain
@@ -68,8 +56,6 @@
 
 #undef FREQSYNTH_KERNEL
 #undef FREQSYNTH_KERNEL_INLINE
-#undef FREQSYNTH_KERNEL_BEGIN
-#undef FREQSYNTH_KERNEL_ROUNDING
 
 namespace freqsynth::detail {
 

@@ -7,7 +7,7 @@ namespace freqsynth::detail::FREQSYNTH_KERNEL_SET {
 template <std::size_t channels>
 FREQSYNTH_KERNEL_INLINE void add_gains(const SampleRow& row, const float* innovations,
                                        const float* absorbed, float* states) {
-  FREQSYNTH_KERNEL_BEGIN
+  FREQSYNTH_ROUNDING_BEGIN
   std::size_t i = 0;
   for (; i + 16 <= row.terms; i += 16) {
     const Float16 gain = Float16::load(row.gain + i);
@@ -40,7 +40,7 @@ FREQSYNTH_KERNEL_INLINE void add_gains(const SampleRow& row, const float* innova
 template <std::size_t channels>
 FREQSYNTH_KERNEL_INLINE void add_term(const BorderRow& border, std::size_t term, float* states,
                                       float* added) {
-  FREQSYNTH_KERNEL_BEGIN
+  FREQSYNTH_ROUNDING_BEGIN
   Float8 products[channels] = {};
   for (std::size_t i = 0; i < term; i += 8) {
     const Float8 b = Float8::load(border.b + i);
@@ -79,7 +79,7 @@ template <std::size_t channels>
 FREQSYNTH_KERNEL_INLINE float absorb_sample(const SampleRow& row, float* states, float* sums,
                                             float* residuals, const float* values,
                                             const float* weights, float change) {
-  FREQSYNTH_KERNEL_BEGIN
+  FREQSYNTH_ROUNDING_BEGIN
   Float16 products[channels] = {};
   for (std::size_t i = 0; i < row.terms; i += 16) {
     const Float16 fit = Float16::load(row.fit + i);
@@ -150,7 +150,7 @@ FREQSYNTH_KERNEL
 void absorb_samples(const SampleRow* rows, std::size_t count, float* states, float* sums,
                     float* residuals, const float* values, const float* weights,
                     std::size_t channels, float* changes) {
-  FREQSYNTH_KERNEL_BEGIN
+  FREQSYNTH_ROUNDING_BEGIN
   for (std::size_t s = 0; s < count; ++s) changes[s] = 0;
   for (std::size_t c = 0; c < channels; c += 4) {
     float* state = states + c * max_terms;

@@ -16,7 +16,7 @@ namespace freqsynth::detail::FREQSYNTH_KERNEL_SET {
 
 FREQSYNTH_KERNEL
 void add_outer_product(double* matrix, const double* x, double scale, std::size_t terms) {
-  FREQSYNTH_KERNEL_BEGIN
+  FREQSYNTH_ROUNDING_BEGIN
   // x is padded with zeros to whole vectors, so that nothing beyond `terms` changes.
   for (std::size_t i = 0; i < terms; i += 4) {
     double* r = matrix + i * max_terms;
@@ -35,7 +35,7 @@ void add_outer_product(double* matrix, const double* x, double scale, std::size_
 
 FREQSYNTH_KERNEL
 void multiply(const double* matrix, const double* x, std::size_t terms, double* out) {
-  FREQSYNTH_KERNEL_BEGIN
+  FREQSYNTH_ROUNDING_BEGIN
   alignas(64) double padded[max_terms];
   copy_padded(x, terms, padded);
   for (std::size_t i = 0; i < terms; i += 4) {

@@ -20,7 +20,7 @@ FREQSYNTH_KERNEL_INLINE std::size_t used_of(const float* values) {
 FREQSYNTH_KERNEL
 void residual_means(const float* matrix, const float* amplitudes, const float* sums,
                     const float* shares, float* out) {
-  FREQSYNTH_KERNEL_BEGIN
+  FREQSYNTH_ROUNDING_BEGIN
   using Part = Pack<float, 16>;
   using Four = Pack<float, 4>;
   // A fit of few samples has few terms; adding zeros changes nothing.
@@ -43,7 +43,7 @@ FREQSYNTH_KERNEL
 void evaluate_separable(const float* amplitudes, const float* wx, std::size_t wx_stride,
                         std::size_t columns, const float* wy, std::size_t rows, float* out,
                         std::size_t out_stride) {
-  FREQSYNTH_KERNEL_BEGIN
+  FREQSYNTH_ROUNDING_BEGIN
   for (std::size_t c = 0; c < columns; c += 8) {
     Float8 partial[block_size];  // sum over u, for each v
     for (std::size_t v = 0; v < block_size; ++v) {
@@ -65,7 +65,7 @@ void evaluate_separable(const float* amplitudes, const float* wx, std::size_t wx
 
 FREQSYNTH_KERNEL
 void add_scaled(const double* values, double factor, std::size_t count, double* sums) {
-  FREQSYNTH_KERNEL_BEGIN
+  FREQSYNTH_ROUNDING_BEGIN
   std::size_t i = 0;
   for (; i + 8 <= count; i += 8) {
     (Double8::load_unaligned(sums + i) + factor * Double8::load_unaligned(values + i))
@@ -76,7 +76,7 @@ void add_scaled(const double* values, double factor, std::size_t count, double* 
 
 FREQSYNTH_KERNEL
 void solve_four(double* matrix, double* right, std::size_t n, std::size_t sides, double* definite) {
-  FREQSYNTH_KERNEL_BEGIN
+  FREQSYNTH_ROUNDING_BEGIN
   constexpr std::size_t lanes = 4;
   const Double4 one = all_lanes<Double4>(1.0);
   Double4 all = one;
@@ -127,7 +127,7 @@ void solve_four(double* matrix, double* right, std::size_t n, std::size_t sides,
 FREQSYNTH_KERNEL
 void forward_transform(const float* pixels, const double* cosines, const double* scales,
                        float* out) {
-  FREQSYNTH_KERNEL_BEGIN
+  FREQSYNTH_ROUNDING_BEGIN
   alignas(64) double values[max_terms], rows[max_terms];
   for (std::size_t i = 0; i < max_terms; ++i) values[i] = static_cast<double>(pixels[i]);
   for (std::size_t y = 0; y < block_size; ++y) {
@@ -150,7 +150,7 @@ void forward_transform(const float* pixels, const double* cosines, const double*
 FREQSYNTH_KERNEL
 void shrink_terms(const float* coefficients, const float* filter, const float* variances,
                   float scale, float* out) {
-  FREQSYNTH_KERNEL_BEGIN
+  FREQSYNTH_ROUNDING_BEGIN
   const Float8 one = all_lanes<Float8>(1.0f);
   for (std::size_t i = 0; i < max_terms; i += 8) {
     const Float8 coefficient = Float8::load_unaligned(coefficients + i);
@@ -163,7 +163,7 @@ void shrink_terms(const float* coefficients, const float* filter, const float* v
 
 FREQSYNTH_KERNEL
 void add_means(const float* means, const float* weights, float doubt, float* pixels) {
-  FREQSYNTH_KERNEL_BEGIN
+  FREQSYNTH_ROUNDING_BEGIN
   const Float8 doubts = all_lanes<Float8>(doubt);
   for (std::size_t i = 0; i < max_terms; i += 8) {
     const Float8 weight = Float8::load(weights + i), pixel = Float8::load(pixels + i);

@@ -31,7 +31,7 @@ FREQSYNTH_KERNEL_INLINE float* row_of(PaddedBlock& block, std::size_t y) {
 
 FREQSYNTH_KERNEL
 void known_means(const float* sums, const float* shares, PaddedBlock& low, PaddedBlock& high) {
-  FREQSYNTH_KERNEL_BEGIN
+  FREQSYNTH_ROUNDING_BEGIN
   const Float8 none = all_lanes<Float8>(PaddedBlock::none);
   pad(low, PaddedBlock::none);
   pad(high, -PaddedBlock::none);
@@ -58,7 +58,7 @@ FREQSYNTH_KERNEL_INLINE void ends_of(const Float8& least, const Float8& most, fl
 
 FREQSYNTH_KERNEL
 void least_and_most(const PaddedBlock& low, const PaddedBlock& high, float* out) {
-  FREQSYNTH_KERNEL_BEGIN
+  FREQSYNTH_ROUNDING_BEGIN
   Float8 least = Float8::load(row_of(low, 0)), most = Float8::load(row_of(high, 0));
   for (std::size_t y = 1; y < block_size; ++y) {
     least = lesser(least, Float8::load(row_of(low, y)));
@@ -69,7 +69,7 @@ void least_and_most(const PaddedBlock& low, const PaddedBlock& high, float* out)
 
 FREQSYNTH_KERNEL
 void owned_means(const float* sums, const float* counts, float* out, float* ends) {
-  FREQSYNTH_KERNEL_BEGIN
+  FREQSYNTH_ROUNDING_BEGIN
   const Float8 none = all_lanes<Float8>(PaddedBlock::none);
   Float8 least = none, most = Float8{} - none;
   for (std::size_t i = 0; i < max_terms; i += 8) {
@@ -114,7 +114,7 @@ FREQSYNTH_KERNEL_INLINE void fold(Keys& sum, Keys& most, Keys& least) {
 
 FREQSYNTH_KERNEL
 float value_of_rank(const PaddedBlock& values, std::size_t rank, float least, float most) {
-  FREQSYNTH_KERNEL_BEGIN
+  FREQSYNTH_ROUNDING_BEGIN
   // Halves the range of keys, each time to the keys that there are.
   constexpr std::size_t bytes = FREQSYNTH_KERNEL_BYTES < 32 ? FREQSYNTH_KERNEL_BYTES : 32;
   constexpr std::size_t own = bytes / sizeof(int), count = max_terms / own;
@@ -155,7 +155,7 @@ float value_of_rank(const PaddedBlock& values, std::size_t rank, float least, fl
 FREQSYNTH_KERNEL
 bool extremes_around(const PaddedBlock& low, const PaddedBlock& high, const float* pixels,
                      float* least, float* most) {
-  FREQSYNTH_KERNEL_BEGIN
+  FREQSYNTH_ROUNDING_BEGIN
   Float8 lows[block_size], highs[block_size];
   for (std::size_t y = 0; y < block_size; ++y) {
     const float *l = row_of(low, y), *h = row_of(high, y);
@@ -186,7 +186,7 @@ bool extremes_around(const PaddedBlock& low, const PaddedBlock& high, const floa
 FREQSYNTH_KERNEL
 void clamp_around(const PaddedBlock& low, const float* least, const float* most,
                   const float* counts, float slack, const float* whole, float* pixels) {
-  FREQSYNTH_KERNEL_BEGIN
+  FREQSYNTH_ROUNDING_BEGIN
   // The values in each column of three, sorted.
   PaddedBlock columns[3];
   for (std::size_t k = 0; k < 3; ++k) pad(columns[k], PaddedBlock::none);
@@ -233,7 +233,7 @@ void clamp_around(const PaddedBlock& low, const float* least, const float* most,
 
 FREQSYNTH_KERNEL
 void hold_flat(const float* means, std::size_t stride, float alike, float most_off, float* pixels) {
-  FREQSYNTH_KERNEL_BEGIN
+  FREQSYNTH_ROUNDING_BEGIN
   const Float8 most = all_lanes<Float8>(alike), one = all_lanes<Float8>(1.0f);
   for (std::size_t y = 0; y < block_size; ++y) {
     const Float8 own = Float8::load_unaligned(means + (y + 1) * stride + 1);

@@ -7,7 +7,7 @@ namespace freqsynth::detail::FREQSYNTH_KERNEL_SET {
 /// rank_one_update() of at most 4 terms: all sums stay in registers.
 FREQSYNTH_KERNEL_INLINE void update_few_terms(double* inverse, double* normal, const double* a,
                                               std::size_t terms) {
-  FREQSYNTH_KERNEL_BEGIN
+  FREQSYNTH_ROUNDING_BEGIN
   if (terms == 1) {
     const double sum = normal[0] + a[0] * a[0];
     const double gamma = sum * a[0];
@@ -35,7 +35,7 @@ FREQSYNTH_KERNEL_INLINE void update_few_terms(double* inverse, double* normal, c
 FREQSYNTH_KERNEL
 void rank_one_update(double* inverse, double* normal, const double* a, std::size_t terms,
                      std::size_t normal_terms) {
-  FREQSYNTH_KERNEL_BEGIN
+  FREQSYNTH_ROUNDING_BEGIN
   if (terms <= 4 && terms == normal_terms) return update_few_terms(inverse, normal, a, terms);
   // Padding with zeros to whole vectors leaves every sum as it is. J is read and written once, J^-1
   // read once before its update.

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+#include "freqsynth/basis/check.h"
+#include "freqsynth/basis/covariance.h"
+#include "freqsynth/basis/rounding.h"
+
+namespace freqsynth::detail {
+
+// The mathematics library's functions differ in the last digit from one to another, and would so
+// from one machine to another.
+
+FREQSYNTH_ROUNDING FREQSYNTH_INLINE double exp_minus(double x) {
+  FREQSYNTH_ROUNDING_BEGIN
+  if (!(x < 700)) return 0;
+  // exp(-x) = 2^-n exp(-r), |r| <= ln 2 / 2. The leading part of ln 2 has few digits, so that its
+  // multiples are exact.
+  constexpr double leading = 0x1.62e42feep-1, rest = 0x1.a39ef35793c76p-33;
+  const auto n = static_cast<std::int64_t>(x * std::numbers::log2e + 0.5);
+  const auto turns = static_cast<double>(n);
+  const double r = (x - turns * leading) - turns * rest;
+  double sum = 1;
+  for (int k = 13; k > 0; --k) sum = 1 - r * sum / k;
+  return sum * std::bit_cast<double>(static_cast<std::uint64_t>(1023 - n) << 52);
+}
+
+FREQSYNTH_ROUNDING FREQSYNTH_INLINE double log_of(double x) {
+  FREQSYNTH_ROUNDING_BEGIN
+  // x = 2^n m with m around 1, and ln m = 2 artanh((m - 1) / (m + 1)).
+  constexpr std::uint64_t below_root_half = 0x3fe6a09e667f3bccu;
+  const auto bits = std::bit_cast<std::uint64_t>(x);
+  const auto n = static_cast<std::int64_t>(bits - below_root_half) >> 52;
+  const double m = std::bit_cast<double>(bits - (static_cast<std::uint64_t>(n) << 52));
+  const double ratio = (m - 1) / (m + 1);
+  const double square = ratio * ratio;
+  double sum = 0;
+  for (int k = 23; k > 0; k -= 2) sum = sum * square + 1.0 / k;
+  return static_cast<double>(n) * std::numbers::ln2 + 2 * ratio * sum;
+}
+
+FREQSYNTH_ROUNDING FREQSYNTH_INLINE double cos_turns(double turns) {
+  FREQSYNTH_ROUNDING_BEGIN
+  turns -= std::floor(turns + 0.5);
+  turns = turns < 0 ? -turns : turns;
+  const bool negative = turns > 0.25;
+  if (negative) turns = 0.5 - turns;
+  const double x = 2 * std::numbers::pi * turns;
+  const double square = x * x;
+  double sum = 1;
+  for (int k = 22; k > 0; k -= 2) sum = 1 - square * sum / (k * (k - 1));
+  return negative ? -sum : sum;
+}
+
+FREQSYNTH_INLINE CovarianceFunction::CovarianceFunction(const Covariance& covariance)
+    : covariance_(covariance) {
+  const auto in_range = [](double value, double low, double high) {
+    return value >= low && value <= high;
+  };
+  require(covariance.shape <= CovarianceShape::squared_exponential, "shape",
+          static_cast<double>(covariance.shape), "a CovarianceShape");
+  require(in_range(covariance.along, 0.01, 1000), "along", covariance.along, "in 0.01..1000");
+  require(in_range(covariance.across, 0.01, 1000), "across", covariance.across, "in 0.01..1000");
+  require(in_range(covariance.angle, -100, 100), "angle", covariance.angle, "in -100..100");
+  require(in_range(covariance.noise, 0, 1e6), "noise", covariance.noise, "in 0..1e6");
+  const bool smooth = covariance.shape >= CovarianceShape::matern52;
+  require(in_range(covariance.frequency, 0, smooth ? 16 : 0), "frequency", covariance.frequency,
+          smooth ? "in 0..16" : "0, which it is for shapes that are not smooth");
+  const double turns = covariance.angle * (0.5 / std::numbers::pi);
+  cosine_ = cos_turns(turns);
+  sine_ = cos_turns(turns - 0.25);
+  const double factor = covariance.shape == CovarianceShape::matern32   ? std::sqrt(3.0)
+                        : covariance.shape == CovarianceShape::matern52 ? std::sqrt(5.0)
+                                                                        : 1;
+  per_along_ = factor / covariance.along;
+  per_across_ = factor / covariance.across;
+}
+
+FREQSYNTH_ROUNDING FREQSYNTH_INLINE UnitPoint CovarianceFunction::scaled(UnitPoint d) const {
+  FREQSYNTH_ROUNDING_BEGIN
+  return {(cosine_ * d.s + sine_ * d.t) * per_along_, (cosine_ * d.t - sine_ * d.s) * per_across_};
+}
+
+FREQSYNTH_ROUNDING FREQSYNTH_INLINE double CovarianceFunction::operator()(UnitPoint d) const {
+  FREQSYNTH_ROUNDING_BEGIN
+  const UnitPoint at = scaled(d);
+  const double square = at.s * at.s + at.t * at.t;
+  if (covariance_.shape == CovarianceShape::squared_exponential) {
+    const double envelope = exp_minus(0.5 * square);
+    return covariance_.frequency == 0
+               ? envelope
+               : envelope * cos_turns(covariance_.frequency * (at.t / per_across_));
+  }
+  const double q = std::sqrt(square);
+  double value = exp_minus(q);
+  if (covariance_.shape == CovarianceShape::matern32) value *= 1 + q;
+  if (covariance_.shape == CovarianceShape::matern52) value *= 1 + q + square * (1.0 / 3);
+  if (covariance_.frequency != 0) {
+    value *= cos_turns(covariance_.frequency * (at.t / per_across_));
+  }
+  return value;
+}
+
+}  // namespace freqsynth::detail
