@@ -25,10 +25,11 @@ FREQSYNTH_API void close_borders(const NoisyPicture& picture, std::span<const fl
                                  double variance, std::span<float> pixels,
                                  const ExecutorRef& executor = {});
 
-/// Draws the levels of blocks to that of all samples around where they differ no more than the
-/// noise that is usual there would make them (empirical Bayes). A block that was sampled until it
-/// had seen light, or was left because it had seen none, has a level that is biased; the sum of all
-/// samples around over their number is not (Wald).
+/// Draws the levels of blocks to that of all samples around where most of their differences is what
+/// the noise that is usual there would make of them. A block that was sampled until it had seen
+/// light, or was left because it had seen none, has a level that is biased; the sum of all samples
+/// around over their number is not (Wald). Where blocks do differ that is the mean of those with
+/// many samples, so nothing is drawn to it.
 /// \param pixels  of one channel, changed in place
 /// \param sums    of the channel's samples in each pixel
 FREQSYNTH_API void pool_levels(const NoisyPicture& picture, std::span<const float> sums,

@@ -124,7 +124,10 @@ inline void BlockLevels::corrections(std::size_t row, std::span<double> out) con
     const std::size_t own = row * stride_ + x + reach;
     const double signal = std::max(0.0, (spread[x] - shares[x] * variances[x]) / samples[x]);
     const double noise = variances[x] / std::max(1.0, samples_[own]);
-    if (noise > 0) out[x] = noise / (signal + noise) * (means[x] - levels_[own]);
+    if (!(noise > 0)) continue;
+    // Nothing below a quarter, all from 3/8 on.
+    const double share = noise / (signal + noise);
+    out[x] = share * std::clamp(8 * share - 2, 0.0, 1.0) * (means[x] - levels_[own]);
   }
 }
 

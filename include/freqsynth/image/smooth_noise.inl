@@ -116,7 +116,7 @@ inline std::vector<GuidedRegression::Guide> feature_guides(const NoisyPicture& p
                                                            std::vector<FeatureSamples>& samples,
                                                            const ExecutorRef& executor) {
   constexpr double ridge = 0.01;  // of the variance over the picture
-  constexpr double noise_ridge = 4;
+  constexpr double noise_ridge = 8;
   std::vector<double> spreads(features.size());
   samples.resize(features.size());
   share_pieces(executor, features.size(), [&](std::size_t i) {
@@ -140,6 +140,15 @@ inline std::vector<GuidedRegression::Guide> feature_guides(const NoisyPicture& p
   return guides;
 }
 
+/// What counts for a fit: more where there are few samples.
+inline GuidedRegression::Window window_of(const NoisyPicture& picture) {
+  double samples = 0;
+  for (const float weight : picture.weights) samples += static_cast<double>(weight);
+  constexpr double few = 2;  // for each pixel
+  const bool more = samples < few * static_cast<double>(picture.weights.size());
+  return {2, more ? 3u : 2u};
+}
+
 FREQSYNTH_INLINE void smooth_noise_on(NoisyPicture& picture, std::span<const std::size_t> channels,
                                       std::span<const std::size_t> features,
                                       const ExecutorRef& executor) {
@@ -151,15 +160,18 @@ FREQSYNTH_INLINE void smooth_noise_on(NoisyPicture& picture, std::span<const std
   struct Pass {
     double ridge, border;
   };
-  constexpr Pass passes[] = {{3, 1}, {0.6, 0.3}};
-  constexpr double last_border = 0.1;
+  constexpr Pass passes[] = {{3, 0.3}, {0.3, 0.3}};
+  constexpr double last_border = 0.03;
+  // A step that is left in a feature is drawn into all channels.
+  constexpr double feature_border = 10;
   const auto close_all = [&](std::size_t channel, double variance) {
     close_borders(picture, picture.sums[channel], variance, picture.pixels[channel], executor);
   };
 
   // Pixels of many samples follow them closely, and leave nothing over that tells of noise. What a
-  // block's fit leaves over does, but of samples that are evenly spread it says too much.
-  constexpr float share_of_variance = 0.35f;
+  // block's fit leaves over does, but where samples are few it has edges in it. The pixels of the
+  // second pass are smooth, and tell of noise themselves.
+  constexpr float share_of_variance = 0.7f;
   std::vector<NoisyPicture::Plane> variances;
   for (const std::size_t channel : channels) {
     for (float& value : variances.emplace_back(picture.variances[channel])) {
@@ -169,17 +181,19 @@ FREQSYNTH_INLINE void smooth_noise_on(NoisyPicture& picture, std::span<const std
 
   std::vector<const float*> sums;
   for (const std::size_t channel : channels) sums.push_back(picture.sums[channel].data());
-  for (const std::size_t channel : features) close_all(channel, passes[0].border);
+  for (const std::size_t channel : features) close_all(channel, feature_border);
   std::vector<FeatureSamples> feature_samples;
   std::vector<GuidedRegression::Guide> guides =
       feature_guides(picture, features, feature_samples, executor);
+  const GuidedRegression::Window window = window_of(picture);
+  bool first = true;
   for (const Pass& pass : passes) {
     for (std::size_t t = 0; t < channels.size(); ++t) {
       close_all(channels[t], pass.border);
       const float* pilot = picture.pixels[channels[t]].data();
-      guides.push_back({pilot, pilot, 0, pass.ridge, variances[t].data(), t});
+      guides.push_back({pilot, pilot, 0, pass.ridge, first ? variances[t].data() : nullptr, t});
     }
-    const GuidedRegression regression(picture, {2, 2}, guides, sums, executor);
+    const GuidedRegression regression(picture, window, guides, sums, executor);
     std::vector<NoisyPicture::Plane> predictions;
     for (const std::size_t channel : channels) predictions.push_back(picture.pixels[channel]);
     regression.predict(std::vector<std::span<float>>(predictions.begin(), predictions.end()),
@@ -190,6 +204,7 @@ FREQSYNTH_INLINE void smooth_noise_on(NoisyPicture& picture, std::span<const std
       pilot = std::move(predictions[t]);
     }
     guides.clear();
+    first = false;
   }
   for (const std::size_t channel : channels) {
     pool_levels(picture, picture.sums[channel], picture.pixels[channel], executor);
