@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <OpenImageIO/argparse.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,6 +17,13 @@
 #include "freqsynth/sampler.h"
 #include "option_values.h"
 #include "scenes/scene.h"
+
+/// Has a parser know `--scene NAME`, one of scenes::scene_names() or a picture.
+/// \param others  names that this program knows as well, each followed by ", "
+inline void describe_scene(OIIO::ArgParse& parser, std::string& scene,
+                           const std::string& others = {}) {
+  parser.arg("--scene %s:NAME", &scene).help(others + scenes::scene_list() + " (" + scene + ")");
+}
 
 /// \throws UsageError when there is no such scene.
 inline std::unique_ptr<scenes::Scene> named_scene(const scenes::SceneOptions& options) {

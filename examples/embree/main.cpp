@@ -4,10 +4,8 @@
 #include <chrono>
 #include <cstdio>
 #include <exception>
-#include <numbers>
 #include <optional>
 #include <string>
-#include <utility>
 
 #include "common/channel_file.h"
 #include "common/interrupt.h"
@@ -16,33 +14,18 @@
 #include "common/picture.h"
 #include "common/progress_bar.h"
 #include "options.h"
+#include "rendering.h"
 
 namespace {
 
 using namespace embree_host;
 
-Renderer make_renderer(const Options& options) {
-  View view;
-  Model model = options.obj.empty() ? make_colonnade(view) : read_obj(options.obj, view);
-  if (options.eye) view.eye = *options.eye;
-  if (options.target) view.target = *options.target;
-  if (options.half_field) view.half_field = *options.half_field;
-  const Vec3 forward = view.target - view.eye;
-  if (forward.x == 0 && forward.y == 0) {
-    throw UsageError("--target: is above or below --eye, or in the same place");
-  }
-  Sky sky;
-  sky.sun_radius = options.sun_size * std::numbers::pi / 360;
-  return Renderer(Geometry(std::move(model)), view, sky, options.job.width, options.job.height,
-                  options.light_samples);
-}
-
 /// \return the exit code
 int render(const Options& options) {
-  const Job& job = options.job;
+  const Job job{options.width, options.height, options.samples_per_pixel, options.frame};
   check_picture(options.output, job.width, job.height, 3);
   if (!options.checkpoint.empty()) check_writable(options.checkpoint);
-  const Renderer renderer = make_renderer(options);
+  const Renderer renderer = make_renderer(options.scene, job.width, job.height);
   note_interrupts();
   HostPool pool = make_pool(options.threads);
   ProgressBar bar;

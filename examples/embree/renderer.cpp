@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/option_values.h"
 #include "path_tracer/scattering.h"
 
 namespace embree_host {
@@ -168,6 +169,21 @@ void Renderer::shade(std::span<const RTCRayHit> rays, std::span<const Sample> sa
   for (std::size_t i = 0; i < rays.size(); ++i) {
     if (Geometry::met(rays[i])) store(values.subspan(i * channels), light[i]);
   }
+}
+
+Renderer make_renderer(const SceneOptions& options, std::size_t width, std::size_t height) {
+  View view;
+  Model model = options.obj.empty() ? make_colonnade(view) : read_obj(options.obj, view);
+  if (options.eye) view.eye = *options.eye;
+  if (options.target) view.target = *options.target;
+  if (options.half_field) view.half_field = *options.half_field;
+  const Vec3 forward = view.target - view.eye;
+  if (forward.x == 0 && forward.y == 0) {
+    throw UsageError("--target: is above or below --eye, or in the same place");
+  }
+  Sky sky;
+  sky.sun_radius = options.sun_size * std::numbers::pi / 360;
+  return Renderer(Geometry(std::move(model)), view, sky, width, height, options.light_samples);
 }
 
 }  // namespace embree_host

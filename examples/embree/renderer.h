@@ -11,6 +11,7 @@
 
 #include "geometry.h"
 #include "path_tracer/decisions.h"
+#include "scene_options.h"
 #include "scenes/camera.h"
 
 namespace embree_host {
@@ -66,5 +67,10 @@ class Renderer {
   double pixel_;  // its width at distance 1
   std::uint32_t light_samples_;
 };
+
+/// The renderer of what the options name.
+/// \throws UsageError when the camera looks straight up or down, and what read_obj() throws.
+[[nodiscard]] Renderer make_renderer(const SceneOptions& options, std::size_t width,
+                                     std::size_t height);
 
 }  // namespace embree_host

@@ -2,14 +2,15 @@
 #include "rendering.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <stdexcept>
 
+#include "common/sampling.h"
+
 namespace embree_host {
 namespace {
-
-constexpr std::size_t depth = channels - 1;
 
 /// The plain samples of some pixels, those of a pixel side by side.
 std::vector<freqsynth::Request> samples_of(const Job& job, path_tracer::Numbers numbers,
@@ -74,11 +75,17 @@ HostPool make_pool(std::size_t threads) {
 #endif
 }
 
-Pixels render_adaptively(const Renderer& renderer, const Job& job, HostPool& pool,
-                         const Watch& watch, Checkpoint checkpoint, const std::string& resume) {
+freqsynth::SynthesisSettings settings_of(const Job& job) {
   freqsynth::SynthesisSettings settings = settings_of(job.width, job.height);
   settings.seed = job.frame;
-  freqsynth::Synthesizer engine = make_engine(resume, settings);
+  settings.max_samples_per_block =
+      block_limit(job.samples_per_pixel, settings.max_samples_per_block);
+  return settings;
+}
+
+Pixels render_adaptively(const Renderer& renderer, const Job& job, HostPool& pool,
+                         const Watch& watch, Checkpoint checkpoint, const std::string& resume) {
+  freqsynth::Synthesizer engine = make_engine(resume, settings_of(job));
   const auto progress = [&](const freqsynth::Progress& now) {
     checkpoint.keep_when_due(engine);
     return watch(now);
@@ -86,17 +93,7 @@ Pixels render_adaptively(const Renderer& renderer, const Job& job, HostPool& poo
   engine.run(Sampler{renderer, job.frame}, {.samples_per_pixel = job.samples_per_pixel}, pool,
              progress, batch);
   checkpoint.keep(engine);
-  Pixels pixels(job.width * job.height * channels);
-  // All but depth come finished, to where they belong.
-  engine.finish({.data = pixels.data(),
-                 .width = job.width,
-                 .height = job.height,
-                 .pixel_stride = channels,
-                 .row_stride = static_cast<std::ptrdiff_t>(job.width * channels)},
-                {}, pool);
-  const std::vector<float> depths = engine.nearest_pixels(depth);
-  for (std::size_t p = 0; p < depths.size(); ++p) pixels[p * channels + depth] = depths[p];
-  return pixels;
+  return pixels_of(engine, pool);
 }
 
 Pixels render_plainly(const Renderer& renderer, const Job& job, path_tracer::Numbers numbers,

@@ -32,11 +32,34 @@ struct Job {
   std::uint64_t frame = 0;  ///< pictures of other frames have other noise
 };
 
+/// The number of the channel that is not averaged.
+inline constexpr std::size_t depth = channels - 1;
+
 /// Most samples that freqsynth is asked for together.
 inline constexpr std::size_t batch = 4096;
 
 /// Told how far it is; false ends the work.
 using Watch = std::function<bool(const freqsynth::Progress&)>;
+
+/// The engine's settings for it.
+[[nodiscard]] freqsynth::SynthesisSettings settings_of(const Job& job);
+
+/// The pixels of what an engine with such settings shows, on a pool's threads.
+template <class Pool>
+[[nodiscard]] Pixels pixels_of(const freqsynth::Synthesizer& engine, Pool& pool) {
+  const freqsynth::PixelWindow shown = engine.window();
+  Pixels pixels(shown.width * shown.height * channels);
+  // All but depth come finished, to where they belong.
+  engine.finish({.data = pixels.data(),
+                 .width = shown.width,
+                 .height = shown.height,
+                 .pixel_stride = channels,
+                 .row_stride = static_cast<std::ptrdiff_t>(shown.width * channels)},
+                {}, pool);
+  const std::vector<float> depths = engine.nearest_pixels(depth);
+  for (std::size_t p = 0; p < depths.size(); ++p) pixels[p * channels + depth] = depths[p];
+  return pixels;
+}
 
 /// Keeps nothing.
 [[nodiscard]] inline Checkpoint no_checkpoint() { return {{}, {}, 0}; }

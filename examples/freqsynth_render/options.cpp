@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "options.h"
 
-#include <OpenImageIO/argparse.h>
-
 #include <cstddef>
 #include <cstdio>
 #include <limits>
 #include <stdexcept>
 #include <string_view>
 
-#include "scenes/scene.h"
+#include "common/sampling.h"
 
 namespace {
 
@@ -41,37 +39,34 @@ void read_name(std::string_view option, const std::string& text,
 
 /// The values of options as they were given; empty: not given.
 struct Texts {
-  std::string size, spp, reference, wave, seed, threads, terms_every, cutoff, order, pixel_filter;
+  std::string reference, terms_every, cutoff, order, pixel_filter;
   std::string scale, channels, zone_frequency, average, steer;
   std::string quality, until_quality, subsampling, tolerance;
-  std::string checkpoint_every;
   bool no_butterworth = false;
-  bool help = false;
 };
 
-void describe_outputs(OIIO::ArgParse& parser, Options& options, Texts& texts) {
-  parser.arg("--help", &texts.help).help("Print this help");
-  parser.arg("--scene %s:NAME", &options.scene).help(scenes::scene_list() + " (chess)");
-  parser.arg("--size %s:WxH", &texts.size).help("Image size in pixels (512x512)");
-  parser.arg("--spp %s:N", &texts.spp).help("Average samples per pixel, fractions included (1)");
-  parser.arg("-o %s:FILE", &options.output)
-      .help("The picture: EXR and PFM hold linear values, PNG and JPEG are display-encoded (sRGB)");
+void describe_outputs(CommandLine& line, Options& options, Texts& texts) {
+  OIIO::ArgParse& parser = line.parser();
+  describe_scene(parser, options.scene);
+  line.add_size();
+  line.add_rate();
+  line.add_output();
   parser.arg("--density %s:FILE", &options.density)
       .help("Picture of the samples per block: black none, white the most");
   parser.arg("--error %s:FILE", &options.error)
       .help("Picture of the error that each pixel is expected to have");
   parser.arg("--frames %s:DIR", &options.frames)
       .help("Pictures at 1/64, 1/32 .. 2 samples per pixel of one run, and a contact sheet");
-  parser.arg("--stats %s:FILE", &options.stats).help("Figures of the run as JSON");
+  line.add_stats();
   parser.arg("--reference %s:N", &texts.reference)
       .help("Instead: N jittered samples per pixel, averaged over each pixel");
 }
 
-void describe_method(OIIO::ArgParse& parser, Options& options, Texts& texts) {
-  parser.arg("--wave %s:N", &texts.wave)
-      .help("Blocks sampled between two choices; 1 = strict order");
-  parser.arg("--seed %s:N", &texts.seed).help("Seed of the random choices (0)");
-  parser.arg("--threads %s:N", &texts.threads).help("Threads that call the scene (all)");
+void describe_method(CommandLine& line, Options& options, Texts& texts) {
+  OIIO::ArgParse& parser = line.parser();
+  line.add_wave();
+  line.add_seed();
+  line.add_threads();
   parser.arg("--terms-every %s:N", &texts.terms_every).help("Samples per added cosine term (2.5)");
   parser.arg("--cutoff %s:C", &texts.cutoff).help("Butterworth cutoff C sqrt(n) (0.8)");
   parser.arg("--order %s:M", &texts.order).help("Butterworth order (2)");
@@ -94,15 +89,6 @@ void describe_method(OIIO::ArgParse& parser, Options& options, Texts& texts) {
           "display: as seen in sRGB (linear)");
 }
 
-void describe_checkpoints(OIIO::ArgParse& parser, Options& options, Texts& texts) {
-  parser.separator("Long runs:");
-  parser.arg("--checkpoint %s:FILE", &options.checkpoint)
-      .help("Keeps the state of the run in a file: now and then, when interrupted, and at the end");
-  parser.arg("--checkpoint-every %s:SECONDS", &texts.checkpoint_every).help("How often (60)");
-  parser.arg("--resume %s:FILE", &options.resume)
-      .help("Goes on from such a file, with the same options; the result is the same to the bit");
-}
-
 void describe_jpeg(OIIO::ArgParse& parser, Options& options, Texts& texts) {
   parser.separator("JPEG files:");
   parser.arg("--quality %s:Q", &texts.quality)
@@ -120,20 +106,13 @@ void describe_jpeg(OIIO::ArgParse& parser, Options& options, Texts& texts) {
 }
 
 void read_method(const Texts& texts, Options& options) {
-  read_size("--size", texts.size, options.width, options.height);
-  read_positive("--spp", texts.spp, options.samples_per_pixel);
   read_count<std::size_t>("--reference", texts.reference, 1, options.reference);
-  read_count<std::size_t>("--wave", texts.wave, 1, options.wave);
-  read_count<std::uint64_t>("--seed", texts.seed, 0, options.seed);
-  read_count<std::size_t>("--threads", texts.threads, 1, options.threads);
-  if (options.threads > 1024) refuse("--threads", texts.threads, "in 1..1024");
   read_positive("--terms-every", texts.terms_every, options.terms_every);
   if (options.terms_every < 1) refuse("--terms-every", texts.terms_every, "at least 1");
   read_positive("--cutoff", texts.cutoff, options.butterworth.cutoff);
   read_positive("--order", texts.order, options.butterworth.order);
   options.butterworth.enabled = !texts.no_butterworth;
   read_positive("--scale", texts.scale, options.scale);
-  read_positive("--checkpoint-every", texts.checkpoint_every, options.checkpoint_every);
   if (!texts.zone_frequency.empty()) {
     read_positive("--zone-frequency", texts.zone_frequency, options.zone_frequency.emplace());
   }
@@ -145,14 +124,14 @@ void read_method(const Texts& texts, Options& options) {
 }
 
 /// What depends on whether coefficients become a JPEG file.
-void read_jpeg(const Texts& texts, Options& options) {
+void read_jpeg(const CommandLine& line, const Texts& texts, Options& options) {
   read_quality("--until-quality", texts.until_quality, options.until_quality);
   options.direct = options.direct || options.until_quality;
   std::optional<int> file_quality = options.until_quality;
   read_quality("--quality", texts.quality, file_quality);
   options.quality = file_quality.value_or(options.direct ? 75 : 95);
   read_positive("--tolerance", texts.tolerance, options.tolerance);
-  if (options.until_quality && texts.spp.empty()) {
+  if (options.until_quality && !line.has_rate()) {
     options.samples_per_pixel = std::numeric_limits<double>::infinity();
   }
   if (options.direct) options.averaging = Averaging::display;
@@ -161,7 +140,7 @@ void read_jpeg(const Texts& texts, Options& options) {
 }
 
 /// Options that do not go together.
-void check_combinations(const Texts& texts, const Options& options) {
+void check_combinations(const CommandLine& line, const Texts& texts, const Options& options) {
   const auto refuse_if = [](bool wrong, const char* why) {
     if (wrong) throw UsageError(why);
   };
@@ -178,16 +157,13 @@ void check_combinations(const Texts& texts, const Options& options) {
   refuse_if(options.progressive && !options.direct, "--progressive: needs --direct");
   refuse_if(!texts.tolerance.empty() && !options.until_quality,
             "--tolerance: needs --until-quality");
-  refuse_if(options.output.empty() && !has_frames, "-o: no output file is named");
+  if (!has_frames) line.require_output();
   refuse_if(
       options.reference != 0 && (has_frames || !options.density.empty() || !options.error.empty()),
       "--reference: has no --frames, no --density and no --error");
   refuse_if(options.reference != 0 && options.scale != 1, "--reference: has no --scale");
-  const bool long_run = !options.checkpoint.empty() || !options.resume.empty();
-  refuse_if(long_run && (options.reference != 0 || has_frames),
+  refuse_if(line.is_long_run() && (options.reference != 0 || has_frames),
             "--checkpoint, --resume: have no --frames and no --reference");
-  refuse_if(!texts.checkpoint_every.empty() && options.checkpoint.empty(),
-            "--checkpoint-every: needs --checkpoint");
 }
 
 }  // namespace
@@ -195,17 +171,15 @@ void check_combinations(const Texts& texts, const Options& options) {
 std::optional<Options> parse_options(int argc, const char** argv) {
   Options options;
   Texts texts;
-  OIIO::ArgParse parser;
-  parser.intro("freqsynth_render: renders a scene by adaptive synthesis in the frequency domain");
-  parser.usage(usage_line);
-  parser.add_help(false).exit_on_error(false);
-  describe_outputs(parser, options, texts);
-  describe_method(parser, options, texts);
-  describe_checkpoints(parser, options, texts);
-  describe_jpeg(parser, options, texts);
-  if (parser.parse_args(argc, argv) < 0) throw UsageError(parser.geterror());
-  if (texts.help) {
-    parser.print_help();
+  CommandLine line(
+      "freqsynth_render: renders a scene by adaptive synthesis in the frequency domain", usage_line,
+      options);
+  describe_outputs(line, options, texts);
+  describe_method(line, options, texts);
+  line.add_checkpoints();
+  describe_jpeg(line.parser(), options, texts);
+  if (!line.read(argc, argv)) {
+    line.print_help();
     std::puts(
         "\nFiles are written whole or not at all. SIGINT (Ctrl-C) and SIGTERM end the run early: "
         "what "
@@ -216,7 +190,7 @@ std::optional<Options> parse_options(int argc, const char** argv) {
     return std::nullopt;
   }
   read_method(texts, options);
-  read_jpeg(texts, options);
-  check_combinations(texts, options);
+  read_jpeg(line, texts, options);
+  check_combinations(line, texts, options);
   return options;
 }

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "common/option_values.h"
+#include "common/shared_options.h"
 #include "freqsynth/engine/priority.h"
 #include "freqsynth/image/butterworth.h"
 #include "freqsynth/image/reconstructor.h"
@@ -19,23 +19,13 @@ enum class Averaging : std::uint8_t {
 };
 
 /// What the user asked for.
-struct Options {
+/// `samples_per_pixel` is infinite where the synthesis goes on until a target is met.
+struct Options : SharedOptions {
   std::string scene = "chess";
-  std::size_t width = 512;
-  std::size_t height = 512;
-  double samples_per_pixel = 1;  // infinite: until the target is met
-  std::string output;
-  std::string density;           // empty: not wanted
-  std::string error;             // of the expected errors; empty: not wanted
-  std::string frames;            // a folder; empty: not wanted
-  std::string stats;             // empty: not wanted
-  std::string checkpoint;        // a file for the state of the run; empty: not wanted
-  double checkpoint_every = 60;  // seconds
-  std::string resume;            // a file to go on from; empty: from the start
-  std::size_t reference = 0;     // jittered samples per pixel; 0: freqsynth
-  std::size_t wave = 0;          // 0: the library's choice
-  std::uint64_t seed = 0;
-  std::size_t threads = 0;  // 0: all
+  std::string density;        // empty: not wanted
+  std::string error;          // of the expected errors; empty: not wanted
+  std::string frames;         // a folder; empty: not wanted
+  std::size_t reference = 0;  // jittered samples per pixel; 0: freqsynth
   double terms_every = 2.5;
   freqsynth::ButterworthSettings butterworth;
   freqsynth::PixelFilter pixel_filter = freqsynth::PixelFilter::box;

@@ -51,10 +51,10 @@ std::string as_json(const RunFigures& run) {
   for (std::size_t r = 0; r < figures.ranks.size(); ++r) {
     const RankFigures& rank = figures.ranks[r];
     text += print(
-        "    {\"samples\": %llu, \"packets\": %llu, \"errors\": %llu, \"tracing_seconds\": "
-        "%.6f}%s\n",
-        whole(rank.samples), whole(rank.packets), whole(rank.errors), rank.seconds,
-        r + 1 < figures.ranks.size() ? "," : "");
+        "    {\"samples\": %llu, \"packets\": %llu, \"most_under_way\": %zu, \"errors\": %llu, "
+        "\"tracing_seconds\": %.6f}%s\n",
+        whole(rank.samples), whole(rank.packets), rank.most_under_way, whole(rank.errors),
+        rank.seconds, r + 1 < figures.ranks.size() ? "," : "");
   }
   return text + "  ]\n}\n";
 }

@@ -3,42 +3,33 @@
 
 #include <algorithm>
 
-#include "common/sampling.h"
 #include "trial.h"
 #include "window_plan.h"
 
 namespace farm {
 
 Job::Job(const Options& options, int rank)
-    : options_(options),
-      scene_(named_scene({.name = options.scene,
-                          .width = static_cast<int>(options.width),
-                          .height = static_cast<int>(options.height),
-                          .seed = options.seed})),
-      pool_(options.threads) {
-  // What a noisy scene takes its random decisions from.
-  const Fields fields{.ordinal = scene_->noisy()};
-  works_.push_back({{options.width, options.height, channels, fields},
-                    on_trial(SceneSampler(*scene_, channels), options.trial, rank)});
+    : options_(options), subject_(make_subject(options)), pool_(options.threads) {
+  const std::size_t channels = subject_.channels.size();
+  works_.push_back({{options.width, options.height, channels, subject_.fields},
+                    on_trial(subject_.sample, options.trial, rank),
+                    subject_.portion});
   if (options.columns != 0) {
     step_ = coarse_step(options.width, options.height);
     const auto size = [&](std::size_t pixels) { return (pixels + step_ - 1) / step_; };
-    works_.push_back(
-        {{size(options.width), size(options.height), channels, fields}, coarse_sampler()});
+    works_.push_back({{size(options.width), size(options.height), channels, subject_.fields},
+                      coarse_sampler(),
+                      subject_.portion});
   }
 }
 
 freqsynth::SynthesisSettings Job::settings(std::size_t work) const {
-  freqsynth::SynthesisSettings settings;
+  freqsynth::SynthesisSettings settings = subject_.settings;
   settings.width = works_[work].format.width;
   settings.height = works_[work].format.height;
-  settings.channels = channels;
   settings.wave = options_.wave;
   settings.list.seed = options_.seed;
-  settings.max_samples_per_block =
-      options_.uniform != 0
-          ? options_.uniform
-          : block_limit(options_.samples_per_pixel, settings.max_samples_per_block);
+  if (options_.uniform != 0) settings.max_samples_per_block = options_.uniform;
   if (work == coarse_picture) {
     // Few blocks, so large waves: it need not be the best picture.
     settings.wave = std::max<std::size_t>(settings.width * settings.height / 256, 1);
@@ -56,6 +47,7 @@ SampleFunction Job::coarse_sampler() const {
     for (freqsynth::Request& request : there) {
       request.x = std::min(request.x * step, width);
       request.y = std::min(request.y * step, height);
+      request.spacing *= static_cast<float>(step);
     }
     fine(there, values);
   };

@@ -4,14 +4,13 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
 #include <span>
 #include <vector>
 
 #include "freqsynth/engine/thread_pool.h"
 #include "freqsynth/synthesizer.h"
 #include "options.h"
-#include "scenes/scene.h"
+#include "subject.h"
 #include "tracing.h"
 
 namespace farm {
@@ -19,14 +18,14 @@ namespace farm {
 /// A scene, and how it is sampled.
 class Job {
  public:
-  static constexpr std::size_t channels = 3;
   /// Numbers of works.
   enum : std::size_t { picture, coarse_picture };
 
-  /// \throws UsageError when there is no such scene, std::runtime_error when it cannot be read.
+  /// \throws like make_subject().
   Job(const Options& options, int rank);
 
   [[nodiscard]] const Options& options() const { return options_; }
+  [[nodiscard]] const Subject& subject() const { return subject_; }
   /// The picture, and a coarse one where there are windows.
   [[nodiscard]] std::span<const Work> works() const { return works_; }
   /// Of an engine of all of a work.
@@ -39,7 +38,7 @@ class Job {
   [[nodiscard]] SampleFunction coarse_sampler() const;
 
   Options options_;
-  std::unique_ptr<scenes::Scene> scene_;
+  Subject subject_;
   freqsynth::ThreadPool pool_;
   std::vector<Work> works_;
   std::size_t step_ = 1;

@@ -112,19 +112,12 @@ double Leader::speed_of(const Rank& rank) const {
   return rank.speed > 0 ? rank.speed : known_speed_;
 }
 
-/// Half of what falls to each of a rank's packets, so that all come to the end of the wave at about
-/// the same time; but at least what is worth a letter.
-std::size_t Leader::packet_size(const Rank& rank) const {
+double Leader::speed_of_all() const {
   double all = 0;
   for (std::size_t r = 1; r < ranks_.size(); ++r) {
     if (!retired(ranks_[r])) all += speed_of(ranks_[r]);
   }
-  const double speed = speed_of(rank);
-  const double fair = static_cast<double>(left()) * speed / all / 2;
-  const double size =
-      std::max(std::min(fair, settings_.most_seconds * speed), settings_.least_seconds * speed);
-  const auto whole = static_cast<std::size_t>(std::min(size, 1e9));
-  return std::clamp<std::size_t>(whole, 1, std::min(left(), settings_.most_samples));
+  return all;
 }
 
 /// Fills up what each rank has to do, those first that have least.
@@ -134,7 +127,7 @@ void Leader::hand_out(std::size_t work) {
       Rank& rank = ranks_[r];
       if (rank.under_way.size() != level || retired(rank)) continue;
       const CpuClock clock(figures_.mailing);
-      const std::size_t size = packet_size(rank);
+      const std::size_t size = packet_size(settings_, left(), speed_of(rank), speed_of_all());
       Packet packet;
       if (!spare_.empty()) {
         packet = std::move(spare_.back());
@@ -147,6 +140,8 @@ void Leader::hand_out(std::size_t work) {
       works_[work].format.encode(packet, bytes);
       send(static_cast<int>(r), Kind::work + static_cast<int>(work), std::move(bytes));
       rank.under_way.push_back(std::move(packet));
+      std::size_t& most = figures_.ranks[r].most_under_way;
+      most = std::max(most, rank.under_way.size());
       ++under_way_;
     }
   }

@@ -15,22 +15,16 @@
 #include "freqsynth/engine/thread_pool.h"
 #include "freqsynth/synthesizer.h"
 #include "mail.h"
+#include "packet_plan.h"
 #include "tracing.h"
 
 namespace farm {
 
-/// How requests are parcelled.
-struct PacketSettings {
-  std::size_t under_way = 2;    ///< packets to each rank at a time
-  double least_seconds = 3e-4;  ///< that a packet takes to trace, for the mail's sake
-  double most_seconds = 1e-2;   ///< for the sake of those that wait at the end of a wave
-  std::size_t most_samples = 8192;
-};
-
 /// What a rank has done.
 struct RankFigures {
   std::uint64_t samples = 0, packets = 0, errors = 0;
-  double seconds = 0;  ///< tracing
+  std::size_t most_under_way = 0;  ///< packets at the same time
+  double seconds = 0;              ///< tracing
 };
 
 /// What it took. Seconds are CPU time of rank 0's thread.
@@ -93,7 +87,7 @@ class Leader {
   void hand_out(std::size_t work);
   void take_answer(freqsynth::Synthesizer& engine, Letter letter, std::size_t channels);
   void settle(freqsynth::Synthesizer& engine, std::size_t channels);
-  [[nodiscard]] std::size_t packet_size(const Rank& rank) const;
+  [[nodiscard]] double speed_of_all() const;
   [[nodiscard]] bool retired(const Rank& rank) const { return rank.failures >= most_failures; }
   [[nodiscard]] double speed_of(const Rank& rank) const;
   [[nodiscard]] std::size_t left() const { return wave_.size() - next_; }

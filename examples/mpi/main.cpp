@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "common/channel_file.h"
 #include "common/checkpoint.h"
 #include "common/interrupt.h"
 #include "common/option_values.h"
@@ -44,7 +45,7 @@ class Run {
   /// \return whether it came to its end, and was not interrupted
   bool operator()() {
     const Options& options = job_.options();
-    check_picture(options.output, options.width, options.height, Job::channels);
+    check_picture(options.output, options.width, options.height, 3);
     for (const std::string& file : {options.stats, options.checkpoint}) {
       if (!file.empty()) check_writable(file);
     }
@@ -52,7 +53,7 @@ class Run {
     if (picture_.pixels.empty()) {
       std::fprintf(stderr, "freqsynth_mpi: too early for a picture\n");
     } else {
-      write_picture(options.output, picture_);
+      write();
     }
     tell();
     return ended;
@@ -72,7 +73,7 @@ class Run {
     waves_ = engine.stats().waves;
     if (waves_ > 0) {
       const farm::CpuClock clock(leader_.figures().finishing);
-      picture_.pixels = farm::pixels_of(engine);
+      picture_.pixels = job_.subject().finish(engine, job_.pool());
     }
     return reason != freqsynth::StopReason::cancelled;
   }
@@ -95,11 +96,11 @@ class Run {
       const std::uint64_t all = stop().most_samples(options.width, options.height);
       tasks = farm::share_out(windows, coarse.image(), job_.step(), all - std::min(all, samples_));
     }
-    picture_.pixels.assign(options.width * options.height * Job::channels, 0);
+    picture_.pixels.assign(options.width * options.height * picture_.channels, 0);
     farm::WindowLeader windows_leader(leader_, tasks, picture_);
     const bool ended = windows_leader.run(
-        {job_.settings(Job::picture), job_.works()[Job::picture].sample}, job_.pool(),
-        [&](double share) { return show(coarse_share + (1 - coarse_share) * share); });
+        {job_.settings(Job::picture), job_.works()[Job::picture].sample, job_.subject().finish},
+        job_.pool(), [&](double share) { return show(coarse_share + (1 - coarse_share) * share); });
     samples_ += windows_leader.samples();
     return ended;
   }
@@ -122,6 +123,13 @@ class Run {
     return noted_interrupt() == 0;
   }
 
+  void write() const {
+    const std::string& file = job_.options().output;
+    if (picture_.channels == 3) return write_picture(file, picture_);
+    write_channels(file,
+                   {picture_.width, picture_.height, job_.subject().channels, picture_.pixels});
+  }
+
   void tell() {
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin_;
     const farm::RunFigures figures{
@@ -135,14 +143,15 @@ class Run {
   Job& job_;
   farm::Leader leader_;
   ProgressBar bar_;
-  Picture picture_{job_.options().width, job_.options().height, Job::channels, {}};
+  Picture picture_{job_.options().width, job_.options().height, job_.subject().channels.size(), {}};
   std::uint64_t samples_ = 0, waves_ = 0;
 };
 
 /// What the others do. What goes wrong beside tracing, as memory that runs out, ends all.
 void serve_or_abort(Job& job, farm::Mail& mail) {
   try {
-    const farm::WindowJob windows{job.settings(Job::picture), job.works()[Job::picture].sample};
+    const farm::WindowJob windows{job.settings(Job::picture), job.works()[Job::picture].sample,
+                                  job.subject().finish};
     farm::serve(mail, job.works(), job.pool(), [&](farm::Letter& letter) {
       farm::answer_window(mail, letter, windows, job.pool(),
                           [](double) { return noted_interrupt() == 0; });

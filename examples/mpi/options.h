@@ -2,32 +2,32 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 
+#include "common/shared_options.h"
+#include "embree/scene_options.h"
 #include "trial.h"
 
 namespace farm {
 
-/// What the user asked for.
-struct Options {
+/// Scenes of the host on Embree: the colonnade, and what OBJ files hold.
+inline constexpr std::string_view colonnade = "colonnade", obj_prefix = "obj:";
+
+/// What the user asked for. `samples_per_pixel` is infinite where `uniform` is not 0.
+struct Options : SharedOptions {
+  Options() { threads = 1; }
+
   std::string scene = "chess";
-  std::size_t width = 512;
-  std::size_t height = 512;
-  double samples_per_pixel = 1;
-  std::size_t uniform = 0;  // samples of each block; 0: adaptive
-  std::string output;
-  std::string stats;             // empty: not wanted
-  std::string checkpoint;        // a file for the state of the run; empty: not wanted
-  double checkpoint_every = 60;  // seconds
-  std::string resume;            // a file to go on from; empty: from the beginning
-  std::size_t wave = 0;          // 0: the library's choice
-  std::uint64_t seed = 0;
-  std::size_t threads = 1;            // of each rank
+  embree_host::SceneOptions embree;
+  std::size_t uniform = 0;            // samples of each block; 0: adaptive
   std::size_t columns = 0, rows = 0;  // of windows; 0: one engine
   TrialSettings trial;
 };
+
+/// Whether they name a scene of the host on Embree.
+[[nodiscard]] bool is_embree_scene(const Options& options);
 
 inline constexpr const char* usage_line =
     "mpirun -n RANKS freqsynth_mpi --scene NAME --size WxH --spp N -o FILE [options]";

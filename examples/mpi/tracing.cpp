@@ -38,7 +38,7 @@ class Tracer {
 
  private:
   void trace(const Work& work) {
-    constexpr std::size_t portion = 16;
+    const std::size_t portion = work.portion;
     const std::size_t slice = 4 * portion * pool_.concurrency();
     for (std::size_t first = 0; first < requests_.size(); first += slice) {
       const std::size_t end = std::min(first + slice, requests_.size());

@@ -22,6 +22,7 @@ using SampleFunction = std::function<void(std::span<const freqsynth::Request>, s
 struct Work {
   PacketFormat format;
   SampleFunction sample;
+  std::size_t portion = 16;  ///< samples of a call
 };
 
 /// Makes the answer to a letter that is no packet.

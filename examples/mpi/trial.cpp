@@ -67,8 +67,9 @@ SampleFunction on_trial(SampleFunction sample, const TrialSettings& settings, in
       throw std::runtime_error("fails on trial");
     }
     const auto count = static_cast<double>(requests.size());
+    const double times = settings.uneven ? rank : 1;
     if (rounds > 0) spin(static_cast<std::uint64_t>(rounds * count));
-    if (settings.sleep_microseconds > 0) sleep(settings.sleep_microseconds * count);
+    if (settings.sleep_microseconds > 0) sleep(times * settings.sleep_microseconds * count);
     sample(requests, values);
   };
 }

@@ -14,6 +14,7 @@ namespace farm {
 struct TrialSettings {
   double busy_microseconds = 0;   ///< CPU time of each sample, beside its own
   double sleep_microseconds = 0;  ///< of each sample
+  bool uneven = false;            ///< on rank r, r times as long
   std::optional<std::uint64_t> delays;
   double failures = 0;  ///< probability that a call throws
 };

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "bytes.h"
-#include "freqsynth/image/reconstructor.h"
 
 namespace farm {
 namespace {
@@ -58,14 +57,10 @@ Rendered render(const WindowJob& job, const WindowTask& task, freqsynth::ThreadP
   if (report.reason == freqsynth::StopReason::unusable) {
     throw std::runtime_error("not one sample of the window is a finite number");
   }
-  return {pixels_of(engine), engine.stats().samples};
+  return {job.finish(engine, pool), engine.stats().samples};
 }
 
 }  // namespace
-
-std::vector<float> pixels_of(const freqsynth::Synthesizer& engine) {
-  return freqsynth::reconstruct(engine.finished_image(), {.clamp_negative = true});
-}
 
 void answer_window(Mail& mail, Letter& letter, const WindowJob& job, freqsynth::ThreadPool& pool,
                    const ShareFunction& progress) {

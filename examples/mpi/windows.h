@@ -16,6 +16,7 @@
 #include "leader.h"
 #include "mail.h"
 #include "packet.h"
+#include "subject.h"
 #include "tracing.h"
 #include "window_plan.h"
 
@@ -25,13 +26,11 @@ namespace farm {
 struct WindowJob {
   freqsynth::SynthesisSettings settings;  ///< of the whole picture
   const SampleFunction& sample;
+  const FinishFunction& finish;
 };
 
 /// Tells the share that is done; false ends the work.
 using ShareFunction = std::function<bool(double)>;
-
-/// The pixels of what an engine shows.
-[[nodiscard]] std::vector<float> pixels_of(const freqsynth::Synthesizer& engine);
 
 /// Answers a letter of Kind::window_task with the window's pixels.
 /// \param progress  false ends it early; the pixels are what there is by then

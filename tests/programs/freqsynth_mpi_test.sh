@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # Renders on 1 to 4 ranks, with delays and failures, and uses freqsynth_mpi wrongly.
-#   freqsynth_mpi_test.sh PROGRAM FREQSYNTH_RENDER MPIEXEC FOLDER
+#   freqsynth_mpi_test.sh PROGRAM FREQSYNTH_RENDER MPIEXEC FOLDER [FREQSYNTH_EMBREE]
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/expect_failure.sh"
 program=$(realpath "$1")
 render=$(realpath "$2")
 mpiexec=$3
 folder=$4
+embree=${5:+$(realpath "$5")}
 rm -rf "$folder"
 mkdir -p "$folder"
 cd "$folder"
@@ -31,6 +32,9 @@ expect_failure 2 "--uniform: has no --spp" "${small[@]}" --uniform 4 --spp 1 -o 
 expect_failure 2 "--windows 4" "${small[@]}" --windows 4 -o a.png
 expect_failure 2 "--threads 0" "${small[@]}" --threads 0 -o a.png
 expect_failure 2 "cheese" "${small[@]}" --scene cheese -o a.png
+expect_failure 2 "--scene colonnade" "${small[@]}" --frame 3 -o a.png
+expect_failure 2 "--scene colonnade" "${small[@]}" --light-samples 2 -o a.png
+expect_failure 2 "--checkpoint-every" "${small[@]}" --checkpoint-every 3 -o a.png
 expect_failure 1 "nowhere/a.png" "${small[@]}" -o nowhere/a.png
 expect_failure 1 "missing.png" "${small[@]}" --scene image:missing.png -o a.png
 [[ ! -e a.png ]] || fail "a refused command wrote a picture"
@@ -55,6 +59,14 @@ for scene in chess cornell; do
 done
 on 3 "${one[@]}" --threads 2 -o ranks.pfm >said
 cmp "$scene.pfm" ranks.pfm || fail "another picture with two threads on each rank"
+
+# Who is slower gets less: a sample takes rank 3 three times as long as rank 1.
+on 4 --scene chess --size 61x43 --wave 48 --spp 1/2 --sleep 300 --uneven -o ranks.pfm \
+  --stats s.json >said
+samples=($(sed -n 's/.*{"samples": \([0-9]*\).*/\1/p' s.json))
+((samples[1] > samples[3])) || fail "ranks of different speed have traced ${samples[*]}"
+# Each goes on to a second packet while the values of the first travel.
+[[ $(grep -cF '"most_under_way": 2' s.json) == 3 ]] || fail "not two: $(cat s.json)"
 
 # Ranks that fail now and then, and ranks that always do.
 for share in 1/20 1; do
@@ -85,6 +97,37 @@ on 4 "${windows[@]}" --delays 1 -o again.pfm >said
 cmp windows.pfm again.pfm || fail "other windows on 4 ranks"
 on 3 "${windows[@]}" --failures 1/100 -o again.pfm >said 2>&1
 cmp windows.pfm again.pfm || fail "other windows when ranks fail"
+
+# The scene of the host on Embree, with all its channels, is that host's picture.
+if [[ -n $embree ]]; then
+  # same A.exr B.exr: but for the time at which they were made
+  same() { cmp <(sed -E 's/[0-9]{4}(:[0-9]{2}){2} [0-9]{2}(:[0-9]{2}){2}//' "$1") \
+    <(sed -E 's/[0-9]{4}(:[0-9]{2}){2} [0-9]{2}(:[0-9]{2}){2}//' "$2"); }
+  scene=(--size 93x61 --frame 3 --eye 2,-18,2 --light-samples 2 --spp 1/4)
+  "$embree" "${scene[@]}" -o colonnade.exr >said
+  for ranks in 1 3; do
+    on $ranks --scene colonnade "${scene[@]}" -o ranks.exr >said
+    same colonnade.exr ranks.exr || fail "colonnade: another picture on $ranks ranks"
+  done
+  on 4 --scene colonnade "${scene[@]}" --failures 1/10 -o ranks.exr >said 2>&1
+  same colonnade.exr ranks.exr || fail "colonnade: another picture when ranks fail"
+  "$embree" "${scene[@]}" --frame 4 -o other.exr >said
+  ! same colonnade.exr other.exr >said || fail "pictures of other frames are the same"
+  # In windows, too, and whatever the ranks.
+  on 1 --scene colonnade "${scene[@]}" --windows 2x2 -o windows.exr >said
+  on 3 --scene colonnade "${scene[@]}" --windows 2x2 -o again.exr >said
+  same windows.exr again.exr || fail "colonnade: other windows on 3 ranks"
+  # A triangle in a file, where such files are read.
+  printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >triangle.obj
+  if "$embree" --size 32x24 --spp 1 --obj triangle.obj -o obj.exr >said 2>&1; then
+    on 2 --size 32x24 --spp 1 --scene obj:triangle.obj -o ranks.exr >said
+    same obj.exr ranks.exr || fail "obj: another picture on 2 ranks"
+  fi
+  expect_failure 1 "none.obj" --size 32x24 --scene obj:none.obj -o a.exr
+  expect_failure 2 "--field 171" --size 32x24 --scene colonnade --field 171 -o a.exr
+else
+  expect_failure 1 "built without Embree" "${small[@]}" --scene colonnade -o a.exr
+fi
 
 # All ranks are lost, and others go on from what is on the disk, or one process.
 rm -f state

@@ -18,7 +18,7 @@ size_of() {
 small=(--size 43x30 --spp 2)
 expect_failure 2 "usage: freqsynth_path_tracer"
 expect_failure 2 "usage: freqsynth_path_tracer" --no-such-option
-expect_failure 2 "-o is missing" "${small[@]}"
+expect_failure 2 "-o: no output file is named" "${small[@]}"
 expect_failure 2 "--size 43" --size 43 -o a.png
 expect_failure 2 "--spp -1" --spp -1 -o a.png
 expect_failure 2 "kitchen" "${small[@]}" --scene kitchen -o a.png
