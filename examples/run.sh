@@ -6,6 +6,8 @@
 #   examples/run.sh --embree ARGUMENTS...  runs freqsynth_embree; without arguments, into out/
 #   examples/run.sh --mpi [RANKS [ARGUMENTS...]]  runs freqsynth_mpi on so many ranks of this
 #                                   machine, one more than it has cores: one of them only leads
+#   examples/run.sh --live ARGUMENTS...  runs freqsynth_live, a picture that grows in the browser;
+#                                   without arguments, chess, which stores into out/ at its end
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
@@ -20,6 +22,11 @@ case ${1-} in
   --mpi)
     program=freqsynth_mpi
     packages+=(libopenmpi-dev openmpi-bin)
+    shift
+    ;;
+  --live)
+    program=live/freqsynth_live
+    packages+=(libcpp-httplib-dev nlohmann-json3-dev)
     shift
     ;;
 esac
@@ -57,6 +64,9 @@ if [[ $name == freqsynth_embree ]]; then
     "$program" -o "$out/$picture"
   done
   exit
+fi
+if [[ $name == freqsynth_live ]]; then
+  exec "$program" -o "$out/live"
 fi
 for scene in fan chess; do
   mkdir -p "$out/${scene}_frames"

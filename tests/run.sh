@@ -35,7 +35,8 @@ case $preset in
     # clang also for the consumers among the tests.
     packages+=(clang clang-format doxygen libbenchmark-dev libeigen3-dev libfftw3-dev
       libopenblas-dev libjpeg-turbo-progs libopenimageio-dev libopenmpi-dev openmpi-bin
-      pkg-config libembree-dev libtinyobjloader-dev libtbb-dev)
+      pkg-config libembree-dev libtinyobjloader-dev libtbb-dev
+      libcpp-httplib-dev nlohmann-json3-dev)
     # Otherwise the test that each header compiles alone would build them, one by one.
     targets+=(all_verify_interface_header_sets)
     ;;

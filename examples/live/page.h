@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string_view>
+
+namespace live {
+
+/// page.html, as it was when this was built; TOKEN stands for a Guard's token.
+extern const std::string_view page;
+
+}  // namespace live

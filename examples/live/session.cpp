@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#include "session.h"
+
+#include <stdexcept>
+#include <utility>
+
+#include "common/checkpoint.h"
+#include "common/picture.h"
+#include "shown_light.h"
+
+namespace live {
+namespace {
+
+using std::chrono::milliseconds;
+
+/// Of the CPU time of sampling, for pictures and their density, and for expected errors. What it
+/// takes to serve them comes on top.
+constexpr double picture_share = 0.035, error_share = 0.01;
+/// Between two revisions.
+constexpr milliseconds picture_interval{400};
+/// The first one waits so long for a sample in each block.
+constexpr milliseconds first_patience{80};
+
+}  // namespace
+
+Session::Session(const Options& options, const Subject& subject)
+    : options_(options),
+      subject_(subject),
+      engine_(
+          make_engine(options.resume, settings_of(options.width, options.height, subject.noisy()))),
+      picture_pace_(picture_share),
+      error_pace_(error_share) {
+  last_.predicted_error = -1;
+}
+
+void Session::run(const std::function<bool()>& going_on) {
+  Sampling sampling(engine_, subject_, options_.samples_per_pixel, options_.threads);
+  picture_pace_ = Pace(picture_share);
+  error_pace_ = Pace(error_share);
+  while (going_on()) {
+    update(sampling);
+    std::unique_lock lock(mutex_);
+    asked_.wait_for(lock, milliseconds(10), [&] { return view_asked_; });
+  }
+  sampling.stop();
+  if (engine_.stats().waves > 0 && !last_.finished) publish(sampling, true);
+}
+
+void Session::attend(const Attention& attention) {
+  const std::lock_guard lock(mutex_);
+  engine_.set_importance(importance_of(attention, options_.width, options_.height));
+  attention_ = attention;
+}
+
+Attention Session::attention() const {
+  const std::lock_guard lock(mutex_);
+  return attention_;
+}
+
+void Session::look(const View& view) {
+  const std::lock_guard lock(mutex_);
+  view_ = view;
+  view_asked_ = true;
+  asked_.notify_one();
+}
+
+View Session::view() const {
+  const std::lock_guard lock(mutex_);
+  return view_;
+}
+
+std::vector<std::string> Session::store() {
+  const std::lock_guard lock(storing_);
+  if (engine_.stats().waves == 0) throw std::runtime_error("there is no picture yet");
+  const freqsynth::FrequencyImage image = engine_.finished_image();
+  write_text(options_.jpeg_file(), picture_jpeg(image, view()));
+  write_picture(options_.exr_file(),
+                {options_.width, options_.height, 3, freqsynth::reconstruct(linear_light(image))});
+  freqsynth::save_file(options_.state_file(), engine_);
+  return {options_.jpeg_file(), options_.exr_file(), options_.state_file()};
+}
+
+bool Session::picture_due(const Sampling& sampling) {
+  const freqsynth::SynthesisStats stats = engine_.stats();
+  if (stats.waves == waves_) return false;
+  if (waves_ == 0) {
+    return stats.samples >= stats.blocks ||
+           sampling.seconds() >= std::chrono::duration<double>(first_patience).count();
+  }
+  return Clock::now() - picture_time_ >= picture_interval && picture_pace_.affords(picture_cost_);
+}
+
+void Session::update(const Sampling& sampling) {
+  const bool ended = sampling.ended();
+  if (ended && !last_.finished && engine_.stats().waves > 0) return publish(sampling, true);
+  bool asked = false;
+  {
+    const std::lock_guard lock(mutex_);
+    asked = view_asked_;
+  }
+  if (picture_due(sampling) || (asked && waves_ > 0)) publish(sampling, ended);
+}
+
+void Session::publish(const Sampling& sampling, bool ended) {
+  picture_cost_ = picture_pace_.spend([&] { make_picture(sampling, ended); });
+  picture_time_ = Clock::now();
+  // What the first one takes is not known: it takes about four pictures' time.
+  const double expected = error_cost_ > 0 ? error_cost_ : 4 * picture_cost_;
+  if (ended || error_pace_.affords(expected)) {
+    error_cost_ = error_pace_.spend([&] { make_error(); });
+  }
+  board_.publish(last_);
+}
+
+void Session::make_picture(const Sampling& sampling, bool ended) {
+  {
+    const std::lock_guard lock(mutex_);
+    last_.view = view_;
+    view_asked_ = false;
+  }
+  const freqsynth::SynthesisStats stats = engine_.stats();
+  if (stats.waves != waves_ || ended != last_.finished) {
+    image_ = ended ? engine_.finished_image() : engine_.image();
+    waves_ = stats.waves;
+    last_.samples = stats.samples;
+    last_.samples_per_pixel =
+        static_cast<double>(stats.samples) / static_cast<double>(options_.width * options_.height);
+    last_.density = density_jpeg(image_, last_.most_samples);
+  }
+  last_.seconds = sampling.seconds();
+  last_.picture = picture_jpeg(image_, last_.view);
+  last_.finished = ended;
+}
+
+void Session::make_error() {
+  last_.predicted_error = engine_.predicted_rmse() * double{exposure_factor(last_.view.stops)};
+  last_.error = error_jpeg(engine_, last_.view);
+}
+
+}  // namespace live
