@@ -77,14 +77,14 @@ TEST(LeastSquaresRefiner, EqualsTheLiteralPath) {
 TEST(LeastSquaresRefiner, SamplesTogetherAreThoseOneByOneToTheBit) {
   constexpr std::size_t samples = 300;
   for (const std::size_t channels : {1u, 2u, 3u, 4u, 5u, 9u}) {
-    for (const std::size_t alone : {0u, 1u, 50u}) {
+    for (const std::size_t bad_until : {0u, 1u, 50u, 300u}) {
       const LeastSquaresRefiner refiner(shared_list(), channels);
-      oracle::Random random(static_cast<unsigned>(100 * channels + alone));
+      oracle::Random random(static_cast<unsigned>(1000 * channels + bad_until));
       std::vector<float> values(samples * channels);
       for (float& value : values) value = random.value();
-      // Some that come alone are not usable; a channel may have had none that is.
-      for (std::size_t i = 0; i < alone * channels; ++i) {
-        if (random.below(10) < 3 || i % channels == channels / 2) values[i] = nan;
+      // One channel has no usable value for long.
+      for (std::size_t i = 0; i < bad_until * channels; ++i) {
+        if (random.below(10) < 1 || i % channels == channels / 2) values[i] = nan;
       }
       detail::AlignedVector<float> together(refiner.state_size()), single(refiner.state_size());
       refiner.reset(together.data());
@@ -95,21 +95,16 @@ TEST(LeastSquaresRefiner, SamplesTogetherAreThoseOneByOneToTheBit) {
       }
       for (std::size_t n = 0; n < samples;) {
         // Some go from one part of the list to the next.
-        std::size_t count = std::min(1 + random.below(40), samples - n);
-        if (n < alone) {
-          count = 1;
-          changes[n] = refiner.absorb(together.data(), n, values.data() + n * channels);
-        } else {
-          refiner.absorb(together.data(), n, values.data() + n * channels,
-                         std::span(changes).subspan(n, count));
-        }
+        const std::size_t count = std::min(1 + random.below(40), samples - n);
+        refiner.absorb(together.data(), n, values.data() + n * channels,
+                       std::span(changes).subspan(n, count));
         n += count;
       }
       const auto same = [](float a, float b) {
         return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
       };
       EXPECT_TRUE(std::equal(together.begin(), together.end(), single.begin(), same))
-          << channels << " channels, " << alone << " samples alone";
+          << channels << " channels, bad until " << bad_until;
       EXPECT_TRUE(std::equal(changes.begin(), changes.end(), expected.begin(), same));
     }
   }

@@ -29,7 +29,6 @@ namespace freqsynth {
 struct AbsorbRoom {
   std::vector<float> values;           ///< of some samples in the channels' units
   std::vector<std::uint8_t> negative;  ///< 1: a channel had a value below 0, see join()
-  bool any_negative = false;           ///< whether one of them had
 };
 
 /// The blocks of one image, all refined by the same refiner.
@@ -70,7 +69,7 @@ class BlockStore {
   void absorb(std::size_t block, std::span<float> changes, Values&& values);
   /// Room for one thread that calls absorb_apart().
   [[nodiscard]] AbsorbRoom make_room() const {
-    return {std::vector<float>(most_together * negative_.size()), std::vector<std::uint8_t>(negative_.size())};
+    return {std::vector<float>(values_.size()), std::vector<std::uint8_t>(negative_.size())};
   }
   /// The same as absorb() in two steps, of which this one may run for several blocks at the same
   /// time. It does nothing, and absorb() is to be called later, where a value is missing, or was
@@ -178,12 +177,9 @@ class BlockStore {
   [[nodiscard]] float undiluted(std::size_t block) const {
     return refiner_.freedom(counts_[block]) / freedom(block);
   }
-  template <class Values>
-  bool to_units(Values&& values, std::size_t first, std::size_t count, AbsorbRoom& room) const;
-  bool to_units(const float* values, float* out, AbsorbRoom& room) const;
-  bool note_values(const float* values, float* out, AbsorbRoom& room) const;
-  void refine(std::size_t block, const float* values, std::span<float> changes, bool usable);
-  void absorb_run(std::size_t block, const float* values, std::span<float> changes, bool usable);
+  bool to_units(const float* values, float* out, std::vector<std::uint8_t>& negative) const;
+  void refine(std::size_t block, const float* values, std::span<float> changes);
+  void absorb_run(std::size_t block, const float* values, std::span<float> changes);
   void note_gaps(std::size_t block, std::size_t index, const float* values);
   [[nodiscard]] float squares(std::size_t block, std::size_t channel) const;
   void squares(std::size_t block, std::span<float> out) const;
@@ -201,13 +197,11 @@ class BlockStore {
   std::vector<int> exponents_;
   std::vector<float> factors_;          // of a value: 1 / unit
   std::vector<std::uint8_t> negative_;  // 1: a channel's values are not all positive or 0
-  std::vector<std::uint32_t> looks_;    // bits of its values that may tell news
-  AbsorbRoom room_;                     // of absorb()
+  std::vector<float> values_;           // of `most_together` samples in the channels' units
   SurpriseBook surprises_;
   std::vector<float> squares_;  // before and after some samples
 
   static constexpr std::size_t most_together = 16;
-  static constexpr std::uint32_t all_bits = 0xffffffffu, without_sign = 0x7fffffffu;
 };
 
 // ------------------------------------------------------------------------------------ definitions
@@ -224,8 +218,7 @@ BlockStore<R>::BlockStore(R refiner, std::size_t blocks, std::size_t most_sample
   exponents_.assign(refiner_.channels(), 0);
   factors_.assign(refiner_.channels(), 1.0f);
   negative_.resize(refiner_.channels());
-  looks_.assign(refiner_.channels(), all_bits);
-  room_ = make_room();
+  values_.resize(most_together * refiner_.channels());
   constexpr std::size_t line = detail::alignment / sizeof(float);
   stride_ = (refiner_.state_size() + line - 1) / line * line;
   states_.resize(blocks * stride_);

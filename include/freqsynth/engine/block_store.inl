@@ -21,63 +21,34 @@ void BlockStore<R>::absorb(std::size_t block, std::span<float> changes, Values&&
   for (std::size_t first = 0; first < changes.size(); first += most_together) {
     const std::size_t together = std::min(changes.size() - first, most_together);
     const std::span<float> part = changes.subspan(first, together);
-    if (to_units(values, first, together, room_) && !gaps_.any(block)) [[likely]] {
-      absorb_run(block, room_.values.data(), part, true);
+    bool bad = gaps_.any(block);
+    for (std::size_t i = 0; i < together; ++i) {
+      bad = to_units(values(first + i), values_.data() + i * factors_.size(), negative_) || bad;
+    }
+    if (!bad) {
+      absorb_run(block, values_.data(), part);
     } else {
       for (std::size_t i = 0; i < together; ++i) {
-        const float* one = room_.values.data() + i * factors_.size();
+        const float* one = values_.data() + i * factors_.size();
         note_gaps(block, counts_[block], one);
-        absorb_run(block, one, part.subspan(i, 1), false);
+        absorb_run(block, one, part.subspan(i, 1));
       }
     }
-    join(room_);
   }
 }
 
-/// \return whether all values of some samples are usable in the host's unit, and so in any
+/// \return whether one of the values is not usable in the host's unit, and so not in any
 template <Refiner R>
-template <class Values>
-bool BlockStore<R>::to_units(Values&& values, std::size_t first, std::size_t count,
-                             AbsorbRoom& room) const {
-  bool usable = true;
-  float* out = room.values.data();
-  for (std::size_t i = 0; i < count; ++i, out += factors_.size()) {
-    usable = to_units(values(first + i), out, room) && usable;
-  }
-  return usable;
-}
-
-/// \return the same of a sample
-template <Refiner R>
-bool BlockStore<R>::to_units(const float* values, float* out, AbsorbRoom& room) const {
-  // Seen as bits, what is usable and not new is not more than some number.
-  constexpr auto most = std::bit_cast<std::uint32_t>(max_sample_magnitude);
-  const float* const factors = factors_.data();
-  const std::uint32_t* const looks = looks_.data();
-  const std::size_t channels = factors_.size();
-  std::uint32_t news = 0;
-  for (std::size_t c = 0; c < channels; ++c) {
-    const float value = values[c];
-    out[c] = value * factors[c];
-    news |= (std::bit_cast<std::uint32_t>(value) & looks[c]) > most ? 1u : 0u;
-  }
-  return news == 0 ? true : note_values(values, out, room);
-}
-
-/// The same where a value is not usable, or a channel's first one below zero.
-template <Refiner R>
-bool BlockStore<R>::note_values(const float* values, float* out, AbsorbRoom& room) const {
+bool BlockStore<R>::to_units(const float* values, float* out,
+                             std::vector<std::uint8_t>& negative) const {
   bool bad = false;
   for (std::size_t c = 0; c < factors_.size(); ++c) {
     const bool usable = is_usable_sample(values[c]);
     out[c] = usable ? values[c] * factors_[c] : std::bit_cast<float>(0x7fc00000u);
     bad = bad || !usable;
-    if (usable && values[c] < 0) {
-      room.negative[c] = 1;
-      room.any_negative = true;
-    }
+    if (usable && values[c] < 0) negative[c] = 1;
   }
-  return !bad;
+  return bad;
 }
 
 template <Refiner R>
@@ -86,48 +57,46 @@ bool BlockStore<R>::absorb_apart(std::size_t block, std::span<float> changes, Va
                                  AbsorbRoom& room, std::span<float> squares) {
   FREQSYNTH_ASSERT(samples(block) + changes.size() <= most_samples_);
   if (changes.size() > most_together || gaps_.any(block)) return false;
-  if (!to_units(values, 0, changes.size(), room)) return false;
+  bool bad = false;
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    float* out = room.values.data() + i * factors_.size();
+    bad = to_units(values(i), out, room.negative) || bad;
+  }
+  if (bad) return false;
   keep(block);
   this->squares(block, squares.first(factors_.size()));
-  refine(block, room.values.data(), changes, true);
+  refine(block, room.values.data(), changes);
   this->squares(block, squares.subspan(factors_.size()));
   return true;
 }
 
 template <Refiner R>
 void BlockStore<R>::join(AbsorbRoom& room) {
-  if (!room.any_negative) return;
   for (std::size_t c = 0; c < negative_.size(); ++c) {
-    if (room.negative[c] == 0) continue;
-    negative_[c] = 1;
-    looks_[c] = without_sign;
+    negative_[c] = static_cast<std::uint8_t>(negative_[c] | room.negative[c]);
     room.negative[c] = 0;
   }
-  room.any_negative = false;
 }
 
 /// Touches nothing but the block.
 template <Refiner R>
-void BlockStore<R>::refine(std::size_t block, const float* values, std::span<float> changes,
-                           bool usable) {
+void BlockStore<R>::refine(std::size_t block, const float* values, std::span<float> changes) {
   float* state = states_.data() + block * stride_;
-  bool together = false;
   if constexpr (RefinesRuns<R>) {
-    together = usable;
-    if (together) refiner_.absorb(state, counts_[block], values, changes);
-  }
-  for (std::size_t i = 0; !together && i < changes.size(); ++i) {
-    changes[i] = refiner_.absorb(state, counts_[block] + i, values + i * factors_.size());
+    refiner_.absorb(state, counts_[block], values, changes);
+  } else {
+    for (std::size_t i = 0; i < changes.size(); ++i) {
+      changes[i] = refiner_.absorb(state, counts_[block] + i, values + i * factors_.size());
+    }
   }
   counts_[block] += static_cast<std::uint32_t>(changes.size());
 }
 
 template <Refiner R>
-void BlockStore<R>::absorb_run(std::size_t block, const float* values, std::span<float> changes,
-                               bool usable) {
+void BlockStore<R>::absorb_run(std::size_t block, const float* values, std::span<float> changes) {
   const std::span<float> all = squares_;
   squares(block, all.first(factors_.size()));
-  refine(block, values, changes, usable);
+  refine(block, values, changes);
   squares(block, all.subspan(factors_.size()));
   join(block, changes.size(), all);
 }

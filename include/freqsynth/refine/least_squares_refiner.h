@@ -63,10 +63,14 @@ class FREQSYNTH_API LeastSquaresRefiner {
   /// prediction; the earlier samples then count as equal to that first value.
   /// \return the mean squared change of the block's pixels (of its coefficients / 8), weighted over
   ///         the channels. The first usable value of a channel, with nothing to change, counts 0.
-  float absorb(float* state, std::size_t index, const float* values) const;
+  float absorb(float* state, std::size_t index, const float* values) const {
+    float change = 0;
+    absorb(state, index, values, std::span<float>(&change, 1));
+    return change;
+  }
 
   /// The same for as many samples from `index` on as there are `changes`, which receive what
-  /// absorb() returns. All values are usable; those of a sample follow those of the one before.
+  /// absorb() returns. The values of a sample follow those of the one before.
   void absorb(float* state, std::size_t index, const float* values, std::span<float> changes) const;
 
   /// Asks for the memory that absorb() of sample `index` will write.
@@ -129,7 +133,7 @@ class FREQSYNTH_API LeastSquaresRefiner {
   [[nodiscard]] BlockFit fit(const float* state, std::size_t samples, std::size_t channel) const;
 
  private:
-  [[nodiscard]] bool started(const float* state) const;
+  [[nodiscard]] bool all_usable(const float* state, std::span<const float> values) const;
   float absorb_channelwise(float* state, std::size_t index, const float* values) const;
   [[nodiscard]] const float* sums(const float* state, std::size_t channel) const {
     return state + (channels_ + 2 * channel) * max_terms;
@@ -144,43 +148,31 @@ class FREQSYNTH_API LeastSquaresRefiner {
 
 // ------------------------------------------------------------------------------------ definitions
 
-/// Whether all channels have had a usable value.
-inline bool LeastSquaresRefiner::started(const float* state) const {
-  bool all = true;
-  for (std::size_t c = 0; c < channels_; ++c) all = all && !detail::is_nan(state[c * max_terms]);
-  return all;
-}
-
-inline float LeastSquaresRefiner::absorb(float* state, std::size_t index,
-                                         const float* values) const {
-  for (std::size_t c = 0; c < channels_; ++c) {
-    if (!is_usable_sample(values[c])) [[unlikely]] {
-      return absorb_channelwise(state, index, values);
-    }
-  }
-  float change = 0;
-  absorb(state, index, values, std::span<float>(&change, 1));
-  return change;
+/// Whether all channels have had a usable value, and all of these are.
+inline bool LeastSquaresRefiner::all_usable(const float* state,
+                                            std::span<const float> values) const {
+  bool usable = true;
+  for (std::size_t c = 0; c < channels_; ++c) usable &= !detail::is_nan(state[c * max_terms]);
+  for (const float value : values) usable &= is_usable_sample(value);
+  return usable;
 }
 
 inline void LeastSquaresRefiner::absorb(float* state, std::size_t index, const float* values,
                                         std::span<float> changes) const {
-  float* change = changes.data();
-  std::size_t left = changes.size();
-  if (left > 0 && !started(state)) [[unlikely]] {
-    *change++ = absorb_channelwise(state, index++, values);
-    values += channels_;
-    --left;
-  }
-  while (left > 0) {
-    const std::span<const detail::SampleRow> rows = list_->rows(index, left);
-    detail::absorb_samples(rows.data(), rows.size(), state, state + channels_ * max_terms,
-                           state + 3 * channels_ * max_terms, values, weights_.data(), channels_,
-                           change);
-    index += rows.size();
-    values += rows.size() * channels_;
-    change += rows.size();
-    left -= rows.size();
+  const bool usable = all_usable(state, {values, changes.size() * channels_});
+  for (std::size_t done = 0; done < changes.size();) {
+    std::size_t count = 1;
+    if (usable) [[likely]] {
+      const std::span<const detail::SampleRow> rows =
+          list_->rows(index + done, changes.size() - done);
+      count = rows.size();
+      detail::absorb_samples(rows.data(), count, state, state + channels_ * max_terms,
+                             state + 3 * channels_ * max_terms, values + done * channels_,
+                             weights_.data(), channels_, changes.data() + done);
+    } else {
+      changes[done] = absorb_channelwise(state, index + done, values + done * channels_);
+    }
+    done += count;
   }
 }
 

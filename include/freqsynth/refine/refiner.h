@@ -103,8 +103,8 @@ concept FillsGaps = Refiner<R> && requires(const R& refiner, const float* known,
 template <class R>
 concept RefinesRuns = Refiner<R> && requires(const R& refiner, float* state, std::size_t n,
                                              const float* values, std::span<float> changes) {
-  /// What absorb() of the samples n, n + 1, .. does, as many as there are changes, if all values
-  /// are usable. Those of a sample follow those of the one before.
+  /// What absorb() of the samples n, n + 1, .. does, as many as there are changes. The values of a
+  /// sample follow those of the one before.
   { refiner.absorb(state, n, values, changes) } -> std::same_as<void>;
   /// Hints that so many samples from n on will be absorbed soon.
   { refiner.prefetch(state, n, changes.size()) } -> std::same_as<void>;
