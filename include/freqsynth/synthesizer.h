@@ -53,7 +53,11 @@ struct SynthesisSettings {
   /// Blocks sampled between two choices, each of which is asked for one sample or, once it has had
   /// 25, for an eighth as many, up to 8; 0 chooses 1/32 of all blocks. 1 is the paper's strict
   /// order: one sample of one block.
+  /// Threads share one wave at a time: for many of them make it larger, see docs/settings.md.
   std::size_t wave = 0;
+  /// Requests that are traced together, such as 16 rays, 1 .. 2^20: request() and batch samplers
+  /// get multiples of it while so many are left of the wave. Results do not depend on it.
+  std::size_t packet = 1;
   /// Most samples of a block, 1 .. SampleSequence::max_size. The default, a complete lattice of 257
   /// x 257, is about 1000 samples per pixel; the shared list takes 60 MB when a block gets there.
   std::size_t max_samples_per_block = std::size_t{257} * 257;

@@ -111,6 +111,7 @@ struct Synthesizer::Implementation {
         grid, std::move(blocks), std::move(measure), detail::factors_of(grid, settings.importance),
         settings.wave, settings.priority.exploration, settings.seed, settings.noise, nearest,
         settings.least_samples_per_block);
+    engine.use_packets(settings.packet);
     engine.use_predictor(
         [](const void* self, const BlockGrid& sampled, const BlockSnapshot<R>& now, bool noisy) {
           return static_cast<const Implementation*>(self)->predicted_rmse(

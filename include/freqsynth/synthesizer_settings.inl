@@ -97,6 +97,9 @@ inline SynthesisSettings validated(SynthesisSettings settings, std::size_t block
     refuse("max_samples_per_block is " + std::to_string(settings.max_samples_per_block) +
            ", not in 1.." + std::to_string(SampleSequence::max_size));
   }
+  if (settings.packet == 0 || settings.packet > std::size_t{1} << 20) {
+    refuse("packet is " + std::to_string(settings.packet) + ", not in 1..1048576");
+  }
   if (settings.least_samples_per_block > settings.max_samples_per_block) {
     refuse("least_samples_per_block is " + std::to_string(settings.least_samples_per_block) +
            ", not in 0.." + std::to_string(settings.max_samples_per_block));

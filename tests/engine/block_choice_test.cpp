@@ -33,6 +33,7 @@ struct Script {
   float cares_below = infinity;
 
   std::vector<std::pair<Block, float>> absorbed;
+  std::vector<double> added;
   std::vector<std::pair<Block, float>> asked;  // with the factor
   std::vector<Block> asked_for_news;
   std::multiset<float> asked_to_care;
@@ -48,6 +49,13 @@ class ScriptedMeasure {
   void absorbed(const BlockView<ScriptedRefiner>&, Block block, std::span<const float> changes) {
     for (const float change : changes) script_->absorbed.push_back({block, change});
   }
+  [[nodiscard]] static bool apart() { return true; }
+  double absorbed_apart(const BlockView<ScriptedRefiner>& view, Block block,
+                        std::span<const float> changes) {
+    absorbed(view, block, changes);
+    return static_cast<double>(block);
+  }
+  void add(double sum) { script_->added.push_back(sum); }
   [[nodiscard]] float priority(const BlockView<ScriptedRefiner>&, Block block, float factor) const {
     script_->asked.push_back({block, factor});
     return factor * script_->priorities[block];

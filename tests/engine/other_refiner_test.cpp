@@ -212,6 +212,12 @@ class FewestSamples {
   }
   template <Refiner R>
   void absorbed(const BlockView<R>&, std::uint32_t, std::span<const float>) {}
+  [[nodiscard]] static bool apart() { return true; }
+  template <Refiner R>
+  double absorbed_apart(const BlockView<R>&, std::uint32_t, std::span<const float>) {
+    return 0;
+  }
+  static void add(double) {}
   template <Refiner R>
   [[nodiscard]] float priority(const BlockView<R>& view, std::uint32_t block, float) const {
     return 1 / static_cast<float>(view.blocks.samples(block));

@@ -263,6 +263,8 @@ TEST(SynthesizerSettings, WrongSettingsAreNamed) {
   refuses([](auto& s) { s.priority.image = -3; }, "image", "-3");
   refuses([](auto& s) { s.priority.exposure = 0; }, "priority.exposure", "0");
   refuses([](auto& s) { s.priority.steer = static_cast<Steer>(7); }, "priority.steer", "7");
+  refuses([](auto& s) { s.packet = 0; }, "packet", "0");
+  refuses([](auto& s) { s.packet = 1048577; }, "packet", "1048577");
   refuses([](auto& s) { s.max_samples_per_block = 0; }, "max_samples_per_block", "0");
   refuses([](auto& s) { s.max_samples_per_block = 1050626; }, "max_samples_per_block", "1050626");
   const auto weighs = [](auto& s, float weight) { s.channel_settings = {{}, {.weight = weight}}; };

@@ -76,6 +76,11 @@ class Engine {
     context_ = context;
   }
 
+  /// Sets of how many requests request() hands out multiples, see SynthesisSettings::packet.
+  void use_packets(std::size_t size) { packet_ = size; }
+  /// That number.
+  [[nodiscard]] std::size_t packet() const { return packet_; }
+
   /// Sets when request() stops, from the next wave on. \throws like StopRule::validate().
   void set_stop(const StopRule& stop);
   /// Other factors on the priorities, one for each block, from the next wave on.
@@ -254,6 +259,7 @@ class Engine {
   std::uint64_t frame_;        // the seed, mixed
   std::size_t wave_size_;      // blocks
   std::size_t longest_visit_;  // samples
+  std::size_t packet_ = 1;     // requests
   Exploration exploration_;
   double shares_ = 0;                          // of all blocks, see BlockChoice::share()
   std::optional<std::vector<float>> factors_;  // that are to be used from the next wave on

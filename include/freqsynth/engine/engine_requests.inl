@@ -20,8 +20,10 @@ std::size_t Engine<R, M>::request(std::span<Request> out, Wait wait) {
     room_.wait(news, deadline);
     lock = settled();
   }
+  std::size_t most = std::min(out.size(), wave_.waiting_count());
+  if (most >= packet_) most -= most % packet_;
   std::size_t count = 0;
-  while (count < out.size() && wave_.waiting()) {
+  while (count < most) {
     out[count] = make_request(wave_.hand_out());
     pixels_.prefetch(out[count].pixel);
     ++count;

@@ -26,10 +26,12 @@ class Batch {
  public:
   /// \param concurrency  parts that are at work at the same time, unless the executor lies
   /// \param stride       floats from the values of a request to those of the next
+  /// \param packet       parts are multiples of so many requests, the last one aside
   Batch(E& engine, std::size_t stride, std::size_t most, std::size_t most_parts,
-        std::size_t concurrency)
+        std::size_t concurrency, std::size_t packet)
       : engine_(engine),
         stride_(stride),
+        packet_(packet),
         requests_(most),
         values_(most * stride),
         parts_(std::max<std::size_t>(most_parts, 1)),
@@ -41,7 +43,8 @@ class Batch {
   /// Asks for requests. \return how many parts they make
   std::size_t fill() {
     count_ = engine_.request(requests_);
-    part_count_ = std::min(count_, parts_.size());
+    packets_ = (count_ + packet_ - 1) / packet_;
+    part_count_ = std::min(packets_, parts_.size());
     for (std::size_t i = 0; i < part_count_; ++i) {
       parts_[i].begun.store(false, std::memory_order_relaxed);
       parts_[i].done = 0;
@@ -139,16 +142,18 @@ class Batch {
     std::size_t number_;
   };
 
-  [[nodiscard]] std::size_t first_of(std::size_t part) const { return part * count_ / part_count_; }
+  [[nodiscard]] std::size_t first_of(std::size_t part) const {
+    return std::min(part * packets_ / part_count_ * packet_, count_);
+  }
 
   E& engine_;
-  std::size_t stride_;
+  std::size_t stride_, packet_;
   std::vector<Request> requests_;
   AlignedVector<float> values_;
   std::vector<Part> parts_;
   std::size_t expected_at_work_;
   std::atomic<std::size_t> at_work_{0};
-  std::size_t count_ = 0;
+  std::size_t count_ = 0, packets_ = 0;
   std::size_t part_count_ = 0;
 };
 
@@ -180,7 +185,7 @@ RunReport run_loop(E& engine, std::size_t channels, const SamplerRef& sampler, c
   const std::size_t most = std::min(batch, engine.wave_size());
   const std::size_t most_parts =
       concurrency <= 1 ? 1 : std::min(most, 4 * std::min(concurrency, most));
-  Batch<E> requests(engine, stride, most, most_parts, concurrency);
+  Batch<E> requests(engine, stride, most, most_parts, concurrency, engine.packet());
   bool told = false;  // that it has come to its end
   while (const std::size_t parts = requests.fill()) {
     const auto task = [&](std::size_t index) { requests.answer(sampler, index); };

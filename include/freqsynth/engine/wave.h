@@ -58,7 +58,11 @@ class Wave {
   /// The same, to complete it.
   [[nodiscard]] Slot& slot(std::size_t slot) { return slots_[slot]; }
 
-  /// Whether a slot waits to be handed out.
+  /// Slots that wait to be handed out.
+  [[nodiscard]] std::size_t waiting_count() const {
+    return slots_.size() - next_ + returned_.size();
+  }
+  /// Whether one does.
   [[nodiscard]] bool waiting() const { return next_ < slots_.size() || !returned_.empty(); }
   /// Hands out a slot that waits, which is owed from then on; those that came back go before new
   /// ones.
