@@ -7,13 +7,11 @@
 #include <time.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <exception>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "common/option_values.h"
@@ -31,61 +29,97 @@ double cpu_seconds(clockid_t clock) {
 double of_process() { return cpu_seconds(CLOCK_PROCESS_CPUTIME_ID); }
 double of_thread() { return cpu_seconds(CLOCK_THREAD_CPUTIME_ID); }
 
+/// The colonnade.
 Renderer make_renderer(std::size_t width, std::size_t height, std::uint32_t light_samples) {
-  View view;
-  Model model = make_colonnade(view);
-  return Renderer(Geometry(std::move(model)), view, {}, width, height, light_samples);
+  SceneOptions options;
+  options.light_samples = light_samples;
+  return embree_host::make_renderer(options, width, height);
 }
 
-/// The renderer's own time is that within its calls, on all threads; the engine's that of the
-/// thread that runs it, outside of these. The finish is measured on one thread, but all can do it.
-void measure_share(const Renderer& renderer, const Job& job, std::size_t threads,
-                   std::uint32_t light_samples) {
-  HostPool pool = make_pool(threads);
-  std::atomic<double> in_all{0};
-  double in_caller = 0;
-  static thread_local bool is_caller = false;
-  is_caller = true;
+/// What is sampled: all channels of the renderer, or the light alone.
+struct Channels {
+  bool all = true;
+
+  [[nodiscard]] std::size_t count() const { return all ? channels : 3; }
+  [[nodiscard]] freqsynth::SynthesisSettings settings(const Job& job) const {
+    freqsynth::SynthesisSettings settings = settings_of(job);
+    settings.channels = count();
+    settings.channel_settings.resize(count());
+    return settings;
+  }
+  void sample(const Sampler& sampler, std::span<const freqsynth::Request> requests,
+              std::span<float> values) const {
+    if (all) return sampler(requests, values);
+    std::vector<float> of_all(requests.size() * channels);
+    sampler(requests, of_all);
+    for (std::size_t i = 0; i < requests.size(); ++i) {
+      std::copy_n(&of_all[i * channels], 3, &values[i * 3]);
+    }
+  }
+};
+
+struct Share {
+  double renderer, engine, finish;  ///< seconds of CPU time for a sample, on one thread
+};
+
+/// The renderer's time is that within its calls, the engine's what is left of the run.
+Share measure_share(const Renderer& renderer, const Job& job, const Channels& kept) {
   const Sampler sampler{renderer};
+  double sampling = 0;
   const auto timed = [&](std::span<const freqsynth::Request> requests, std::span<float> values) {
     const double begin = of_thread();
-    sampler(requests, values);
-    const double seconds = of_thread() - begin;
-    in_all += seconds;
-    if (is_caller) in_caller += seconds;
+    kept.sample(sampler, requests, values);
+    sampling += of_thread() - begin;
   };
   const double begin = of_thread();
-  freqsynth::Synthesizer engine(settings_of(job.width, job.height));
-  engine.run(timed, {.samples_per_pixel = job.samples_per_pixel}, pool, freqsynth::KeepGoing{},
-             batch);
+  freqsynth::Synthesizer engine(kept.settings(job));
+  engine.run(timed, {.samples_per_pixel = job.samples_per_pixel}, freqsynth::SerialExecutor{},
+             freqsynth::KeepGoing{}, batch);
   const double sampled = of_thread();
-  std::vector<float> pixels(job.width * job.height * (channels - 1));
+  std::vector<float> pixels(job.width * job.height * (kept.all ? channels - 1 : 3));
   engine.finish({.data = pixels.data(), .width = job.width, .height = job.height});
-  const std::vector<float> depths = engine.nearest_pixels(channels - 1);
+  if (kept.all) static_cast<void>(engine.nearest_pixels(depth));
   const double finished = of_thread();
-  const double count = static_cast<double>(engine.stats().samples + engine.stats().probes);
-  const double host = in_all / count, core = (sampled - begin - in_caller) / count,
-               finish = (finished - sampled) / count;
-  const auto workers = static_cast<double>(threads);
-  const auto share = [&](double own) { return 100 * own / (own + host / workers); };
-  std::printf("| %u | %g | %zu | %.2f | %.2f | %.2f | %.0f %% | %.0f %% |\n", light_samples,
-              job.samples_per_pixel, threads, 1e6 * host, 1e6 * core, 1e6 * finish, share(core),
-              share(core + finish / workers));
-  std::fflush(stdout);
+  const auto count = static_cast<double>(engine.stats().samples + engine.stats().probes);
+  return {sampling / count, (sampled - begin - sampling) / count, (finished - sampled) / count};
+}
+
+/// The engine's share of the time of a run on all threads, by the clock on the wall.
+double share_on_all(const Renderer& renderer, const Job& job, const Channels& kept) {
+  HostPool pool = make_pool(0);
+  const Sampler sampler{renderer};
+  const auto sample = [&](std::span<const freqsynth::Request> requests, std::span<float> values) {
+    kept.sample(sampler, requests, values);
+  };
+  freqsynth::Synthesizer engine(kept.settings(job));
+  const auto report = engine.run(sample, {.samples_per_pixel = job.samples_per_pixel}, pool,
+                                 freqsynth::KeepGoing{}, batch);
+  return report.core_seconds / (report.core_seconds + report.sampler_seconds);
 }
 
 void measure_shares(std::size_t width, std::size_t height) {
+  struct Case {
+    std::uint32_t light_samples;
+    double rate;
+    Channels kept;
+  };
   std::printf(
-      "| paths a sample | samples per pixel | threads | renderer, us a sample | engine | finish "
-      "| share of the engine | with finish |\n|---|---|---|---|---|---|---|---|\n");
-  for (const std::uint32_t light_samples : {1u, 16u}) {
-    const Renderer renderer = make_renderer(width, height, light_samples);
-    for (const double rate : {1.0, 4.0}) {
-      if (light_samples > 1 && rate > 1) continue;
-      for (const std::size_t threads : {1u, 2u}) {
-        measure_share(renderer, {width, height, rate}, threads, light_samples);
-      }
-    }
+      "| paths a sample | samples per pixel | channels | renderer, us a sample | engine | finish | "
+      "share of the engine | with finish | of the engine on %zu threads |\n"
+      "|---|---|---|---|---|---|---|---|---|\n",
+      make_pool(0).concurrency());
+  for (const Case& each : {Case{1, 1, {false}}, Case{1, 1, {}}, Case{1, 4, {}}, Case{4, 1, {}},
+                           Case{16, 1, {}}, Case{32, 1, {}}}) {
+    const Renderer renderer = make_renderer(width, height, each.light_samples);
+    const Job job{width, height, each.rate};
+    const Share share = measure_share(renderer, job, each.kept);
+    const double engine = share.engine, finish = share.finish;
+    std::printf("| %u | %g | %zu | %.2f | %.2f | %.2f | %.0f %% | %.0f %% | %.0f %% |\n",
+                each.light_samples, each.rate, each.kept.count(), 1e6 * share.renderer,
+                1e6 * engine, 1e6 * finish, 100 * engine / (engine + share.renderer),
+                100 * (engine + finish) / (engine + finish + share.renderer),
+                100 * share_on_all(renderer, job, each.kept));
+    std::fflush(stdout);
   }
 }
 
@@ -146,23 +180,36 @@ void measure_errors(std::size_t width, std::size_t height, std::uint32_t light_s
     return runs;
   };
   const std::vector<Run> jittered = plain(Numbers::random), sobol = plain(Numbers::sobol);
-  std::printf("| sampler | samples per pixel | CPU seconds | RMSE |\n|---|---|---|---|\n");
-  for (const auto& [name, runs] : {std::pair{"jittered", &jittered}, std::pair{"Sobol", &sobol}}) {
-    for (const Run& run : *runs) {
-      std::printf("| %s | %g | %.2f | %.4f |\n", name, run.rate, run.seconds, run.error);
-    }
+  std::printf(
+      "| samples per pixel | jittered: seconds | error | Sobol: seconds | error |\n"
+      "|---|---|---|---|---|\n");
+  for (std::size_t i = 0; i < jittered.size(); ++i) {
+    std::printf("| %g | %.2f | %.4f | %.2f | %.4f |\n", jittered[i].rate, jittered[i].seconds,
+                jittered[i].error, sobol[i].seconds, sobol[i].error);
   }
   std::printf(
-      "\n| freqsynth, samples per pixel | CPU seconds | RMSE | jittered in that time | Sobol in "
-      "that "
-      "time |\n|---|---|---|---|---|\n");
+      "\n| freqsynth, samples per pixel | seconds | error | Sobol with as many samples | jittered "
+      "in "
+      "that time | Sobol in that time |\n|---|---|---|---|---|---|\n");
   for (const double rate : {0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0}) {
     const Run run =
         measure(rate, [&](const Job& job) { return render_adaptively(renderer, job, one, go_on); });
     const double by_jitter = error_at(run.seconds, jittered),
                  by_sobol = error_at(run.seconds, sobol);
-    std::printf("| %g | %.2f | %.4f | %.4f (%.2f times) | %.4f (%.2f times) |\n", rate, run.seconds,
-                run.error, by_jitter, by_jitter / run.error, by_sobol, by_sobol / run.error);
+    const auto as_many = std::find_if(sobol.begin(), sobol.end(),
+                                      [&](const Run& other) { return other.rate == rate; });
+    std::printf("| %g | %.2f | %.4f |", rate, run.seconds, run.error);
+    const auto tell = [&](double error) {
+      std::printf(" %.4f (%.2f times) |", error, error / run.error);
+    };
+    if (as_many != sobol.end()) {
+      tell(as_many->error);
+    } else {
+      std::printf(" |");
+    }
+    tell(by_jitter);
+    tell(by_sobol);
+    std::printf("\n");
     std::fflush(stdout);
   }
 }

@@ -31,9 +31,14 @@ class Checkpoint {
 
   /// Keeps the state. A disk that is full is no end of a long run: it is told.
   void keep(const freqsynth::Synthesizer& engine) {
+    keep_by([&](const std::string& file) { freqsynth::save_file(file, engine); });
+  }
+  /// Keeps a state of another kind, which `write(file)` writes.
+  template <class Write>
+  void keep_by(Write&& write) {
     if (file_.empty()) return;
     try {
-      freqsynth::save_file(file_, engine);
+      write(file_);
     } catch (const std::runtime_error& error) {
       std::fprintf(stderr, "%s: --checkpoint: %s\n", program_.c_str(), error.what());
     }
@@ -41,8 +46,10 @@ class Checkpoint {
   }
   /// Does so when it is time.
   void keep_when_due(const freqsynth::Synthesizer& engine) {
-    if (!file_.empty() && Clock::now() >= due_) keep(engine);
+    if (is_due()) keep(engine);
   }
+  /// Whether it is time.
+  [[nodiscard]] bool is_due() const { return !file_.empty() && Clock::now() >= due_; }
 
  private:
   using Clock = std::chrono::steady_clock;

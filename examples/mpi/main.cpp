@@ -3,14 +3,17 @@
 
 #include <mpi.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <exception>
 #include <limits>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/channel_file.h"
@@ -29,6 +32,8 @@
 #include "mail.h"
 #include "options.h"
 #include "tracing.h"
+#include "window_plan.h"
+#include "window_state.h"
 #include "windows.h"
 
 namespace {
@@ -60,6 +65,8 @@ class Run {
   }
 
  private:
+  static constexpr double coarse_share = 0.05;  // of the progress, with windows
+
   bool with_one_engine() {
     const Options& options = job_.options();
     freqsynth::Synthesizer engine = make_engine(options.resume, job_.settings(Job::picture));
@@ -80,10 +87,47 @@ class Run {
 
   bool in_windows() {
     const Options& options = job_.options();
+    farm::WindowState state;
+    const std::string what = farm::picture_of(options);
+    if (!options.resume.empty()) {
+      state = farm::load_windows(options.resume, what, picture_);
+    } else if (!plan_windows(state)) {
+      return false;
+    }
+    Checkpoint checkpoint("freqsynth_mpi", options.checkpoint, options.checkpoint_every);
+    const auto keep = [&] {
+      checkpoint.keep_by([&](const std::string& file) { farm::save_windows(file, what, state); });
+    };
+    farm::WindowLeader windows_leader(leader_, state);
+    const bool ended = windows_leader.run(
+        {job_.settings(Job::picture), job_.works()[Job::picture].sample, job_.subject().finish},
+        job_.pool(), [&](double share) {
+          if (checkpoint.is_due()) keep();
+          return show(coarse_share + (1 - coarse_share) * share);
+        });
+    keep();
+    samples_ = std::accumulate(state.taken.begin(), state.taken.end(), state.coarse);
+    picture_ = std::move(state.picture);
+    return ended;
+  }
+
+  /// MPI counts the bytes of a letter by int.
+  void check_letter(const freqsynth::PixelWindow& window) const {
+    constexpr std::size_t most = std::numeric_limits<int>::max() / sizeof(float) - 16;
+    if (window.width * window.height <= most / picture_.channels) return;
+    throw std::runtime_error("--windows: one of " + std::to_string(window.width) + " x " +
+                             std::to_string(window.height) +
+                             " pixels is no letter of 2 GB; cut into more");
+  }
+
+  /// Shares the samples out. \return whether it was not interrupted
+  bool plan_windows(farm::WindowState& state) {
+    const Options& options = job_.options();
     const auto windows =
         farm::cut_windows(options.width, options.height, options.columns, options.rows);
+    for (const auto& window : windows) check_letter(window);
     std::vector<farm::WindowTask> tasks;
-    constexpr double coarse_share = 0.05;  // of the progress
+    std::uint64_t taken = 0;
     if (options.uniform != 0) {
       for (const auto& window : windows) tasks.push_back({window, farm::WindowTask::no_limit});
     } else {
@@ -92,17 +136,12 @@ class Run {
         return show(coarse_share * now.fraction);
       });
       if (reason == freqsynth::StopReason::cancelled) return false;
-      samples_ = coarse.stats().samples;
+      taken = coarse.stats().samples;
       const std::uint64_t all = stop().most_samples(options.width, options.height);
-      tasks = farm::share_out(windows, coarse.image(), job_.step(), all - std::min(all, samples_));
+      tasks = farm::share_out(windows, coarse.image(), job_.step(), all - std::min(all, taken));
     }
-    picture_.pixels.assign(options.width * options.height * picture_.channels, 0);
-    farm::WindowLeader windows_leader(leader_, tasks, picture_);
-    const bool ended = windows_leader.run(
-        {job_.settings(Job::picture), job_.works()[Job::picture].sample, job_.subject().finish},
-        job_.pool(), [&](double share) { return show(coarse_share + (1 - coarse_share) * share); });
-    samples_ += windows_leader.samples();
-    return ended;
+    state = {std::move(tasks), taken, picture_};
+    return true;
   }
 
   [[nodiscard]] freqsynth::StopRule stop() const {

@@ -2,6 +2,7 @@
 #include "options.h"
 
 #include <limits>
+#include <sstream>
 
 #include "common/sampling.h"
 #include "freqsynth/basis/sample_sequence.h"
@@ -81,14 +82,28 @@ std::optional<Options> parse_options(int argc, const char** argv, bool print) {
     throw UsageError("--frame, --eye and the like: are for --scene colonnade and obj:FILE");
   }
   if (line.has_rate() && options.uniform != 0) throw UsageError("--uniform: has no --spp");
-  if (options.columns != 0 && line.is_long_run()) {
-    throw UsageError("--windows: has no --checkpoint and no --resume");
-  }
   line.require_output();
   if (options.uniform != 0) {
     options.samples_per_pixel = std::numeric_limits<double>::infinity();
   }
   return options;
+}
+
+std::string picture_of(const Options& options) {
+  std::ostringstream words;
+  words.precision(17);
+  const embree_host::SceneOptions& embree = options.embree;
+  words << options.scene << ' ' << options.width << 'x' << options.height << " windows "
+        << options.columns << 'x' << options.rows << " spp " << options.samples_per_pixel
+        << " uniform " << options.uniform << " wave " << options.wave << " seed " << options.seed
+        << " frame " << options.frame << " sun " << embree.sun_size << " paths "
+        << embree.light_samples;
+  for (const auto& place : {embree.eye, embree.target}) {
+    if (place) words << " at " << place->x << ',' << place->y << ',' << place->z;
+    words << ';';
+  }
+  if (embree.half_field) words << " field " << *embree.half_field;
+  return words.str();
 }
 
 bool is_embree_scene(const Options& options) {

@@ -29,6 +29,9 @@ struct Options : SharedOptions {
 /// Whether they name a scene of the host on Embree.
 [[nodiscard]] bool is_embree_scene(const Options& options);
 
+/// What picture they ask for, in words: two that differ may be different pictures.
+[[nodiscard]] std::string picture_of(const Options& options);
+
 inline constexpr const char* usage_line =
     "mpirun -n RANKS freqsynth_mpi --scene NAME --size WxH --spp N -o FILE [options]";
 

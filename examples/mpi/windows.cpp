@@ -84,11 +84,13 @@ void answer_window(Mail& mail, Letter& letter, const WindowJob& job, freqsynth::
   mail.send(letter.from, Kind::window_picture, std::move(answer));
 }
 
-WindowLeader::WindowLeader(Leader& leader, std::span<const WindowTask> tasks, Picture& picture)
-    : leader_(leader), tasks_(tasks), picture_(picture), waiting_(tasks.size()) {
-  for (std::size_t i = 0; i < waiting_.size(); ++i) waiting_[i] = i;
+WindowLeader::WindowLeader(Leader& leader, WindowState& state) : leader_(leader), state_(state) {
+  for (std::size_t i = 0; i < state.tasks.size(); ++i) {
+    if (state.taken[i] == 0) waiting_.push_back(i);
+  }
+  done_ = state.tasks.size() - waiting_.size();
   std::stable_sort(waiting_.begin(), waiting_.end(), [&](std::size_t a, std::size_t b) {
-    return tasks_[a].samples < tasks_[b].samples;
+    return state_.tasks[a].samples < state_.tasks[b].samples;
   });
 }
 
@@ -96,26 +98,27 @@ bool WindowLeader::run(const WindowJob& job, freqsynth::ThreadPool& pool,
                        const ShareFunction& progress) {
   bool goes_on = true;
   const auto show = [&](double share) {
-    goes_on = progress((static_cast<double>(done_) + share) / static_cast<double>(tasks_.size()));
+    goes_on =
+        progress((static_cast<double>(done_) + share) / static_cast<double>(state_.tasks.size()));
     return goes_on;
   };
-  while (!under_way_.empty() || (goes_on && done_ < tasks_.size())) {
+  while (!under_way_.empty() || (goes_on && done_ < state_.tasks.size())) {
     if (goes_on) hand_out();
     if (under_way_.empty()) {
       // There is none but this rank.
-      const WindowTask& task = tasks_[waiting_.back()];
+      const std::size_t window = waiting_.back();
       const auto begin = std::chrono::steady_clock::now();
-      const auto [pixels, samples] = render(job, task, pool, show);
+      const auto [pixels, samples] = render(job, state_.tasks[window], pool, show);
       const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
       waiting_.pop_back();
-      finish(0, task, pixels, {samples, seconds.count()});
+      finish(0, window, pixels, {samples, seconds.count()});
       continue;
     }
     std::optional<Letter> letter = leader_.look();
     show(0);
     if (letter) take_answer(*letter);
   }
-  return done_ == tasks_.size();
+  return done_ == state_.tasks.size();
 }
 
 /// Gives a window to each rank that has none.
@@ -124,7 +127,7 @@ void WindowLeader::hand_out() {
     if (waiting_.empty() || under_way_.contains(rank)) continue;
     under_way_[rank] = waiting_.back();
     std::vector<std::byte> bytes = leader_.mail().paper();
-    put(bytes, tasks_[waiting_.back()]);
+    put(bytes, state_.tasks[waiting_.back()]);
     waiting_.pop_back();
     leader_.send(rank, Kind::window_task, std::move(bytes));
   }
@@ -142,19 +145,19 @@ void WindowLeader::take_answer(Letter& letter) {
     leader_.note_success(letter.from);
     std::vector<float> pixels(bytes.size() / sizeof(float));
     std::memcpy(pixels.data(), bytes.data(), bytes.size());
-    finish(letter.from, tasks_[window], pixels, header);
+    finish(letter.from, window, pixels, header);
   }
   leader_.mail().recycle(std::move(letter.bytes));
 }
 
-void WindowLeader::finish(int rank, const WindowTask& task, std::span<const float> pixels,
+void WindowLeader::finish(int rank, std::size_t window, std::span<const float> pixels,
                           const AnswerHeader& header) {
-  paste(pixels, task.window, picture_);
+  paste(pixels, state_.tasks[window].window, state_.picture);
+  state_.taken[window] = header.count;
   RankFigures& figures = leader_.figures().ranks[static_cast<std::size_t>(rank)];
   figures.samples += header.count;
   figures.seconds += header.seconds;
   ++figures.packets;
-  samples_ += header.count;
   leader_.figures().windows.push_back(header.count);
   ++done_;
 }

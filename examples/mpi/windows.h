@@ -10,7 +10,6 @@
 #include <span>
 #include <vector>
 
-#include "common/picture.h"
 #include "freqsynth/engine/thread_pool.h"
 #include "freqsynth/synthesizer.h"
 #include "leader.h"
@@ -19,6 +18,7 @@
 #include "subject.h"
 #include "tracing.h"
 #include "window_plan.h"
+#include "window_state.h"
 
 namespace farm {
 
@@ -40,30 +40,25 @@ void answer_window(Mail& mail, Letter& letter, const WindowJob& job, freqsynth::
 /// Has the ranks make all windows, the most expensive first, and puts them together.
 class WindowLeader {
  public:
-  /// \param picture  where the pixels go
-  WindowLeader(Leader& leader, std::span<const WindowTask> tasks, Picture& picture);
+  /// \param state  what is to be done and what has been; receives what is done. Outlives this.
+  WindowLeader(Leader& leader, WindowState& state);
 
   /// A window whose rank fails goes to another one; when none is left, rank 0 makes it.
   /// \param progress  false: no more windows are begun
   /// \return whether all are there
   bool run(const WindowJob& job, freqsynth::ThreadPool& pool, const ShareFunction& progress);
 
-  /// That were taken so far.
-  [[nodiscard]] std::uint64_t samples() const { return samples_; }
-
  private:
   void hand_out();
   void take_answer(Letter& letter);
-  void finish(int rank, const WindowTask& task, std::span<const float> pixels,
+  void finish(int rank, std::size_t window, std::span<const float> pixels,
               const AnswerHeader& header);
 
   Leader& leader_;
-  std::span<const WindowTask> tasks_;
-  Picture& picture_;
+  WindowState& state_;
   std::vector<std::size_t> waiting_;      // the most expensive last
   std::map<int, std::size_t> under_way_;  // the window of each rank that is at work
   std::size_t done_ = 0;
-  std::uint64_t samples_ = 0;
 };
 
 }  // namespace farm

@@ -146,8 +146,32 @@ for ranks in 1 3; do
   on $ranks --scene chess "${small[@]}" --spp 40 --seed 5 --resume state_then -o resumed.pfm >said
   cmp whole.pfm resumed.pfm || fail "another picture on $ranks ranks after the loss of all"
 done
-expect_failure 2 "--windows" --windows 2x2 --checkpoint state -o a.png
+expect_failure 1 "no state of windows" "${small[@]}" --windows 2x2 --resume state_then -o a.png
 expect_failure 1 "missing" "${small[@]}" --resume missing -o a.png
+
+# The same in windows.
+windows=(--scene cornell --size 136x104 --spp 1 --windows 4x3)
+on 1 "${windows[@]}" -o windows.pfm >said
+rm -f state
+on 3 "${windows[@]}" --sleep 100 --checkpoint state --checkpoint-every 0.1 -o lost.pfm >said 2>&1 &
+for ((i = 0; i < 300; ++i)); do
+  [[ ! -e state ]] || break
+  sleep 0.1
+done
+kill -KILL $(ps -o pid= --ppid $!)
+wait $! || true
+[[ -e state && ! -e lost.pfm ]] || fail "nothing was lost: $(cat said)"
+for ranks in 1 3; do
+  on $ranks "${windows[@]}" --resume state -o resumed.pfm >said
+  cmp windows.pfm resumed.pfm || fail "other windows on $ranks ranks after the loss of all"
+done
+# Of a run that has ended nothing is left to do.
+on 3 "${windows[@]}" --checkpoint state -o again.pfm >said
+on 3 "${windows[@]}" --resume state -o again.pfm --stats s.json >said
+cmp windows.pfm again.pfm || fail "other windows from those that were done"
+! grep -q '"packets": [1-9]' s.json || fail "windows that were done are made again"
+expect_failure 1 "was made with other options" --scene cornell --size 136x104 --spp 2 \
+  --windows 4x3 --resume state -o a.png
 
 # An interrupt: what there is is written.
 rm -f state
