@@ -31,6 +31,7 @@ expect_failure 2 "--uniform 99999999" "${small[@]}" --uniform 99999999 -o a.png
 expect_failure 2 "--uniform: has no --spp" "${small[@]}" --uniform 4 --spp 1 -o a.png
 expect_failure 2 "--windows 4" "${small[@]}" --windows 4 -o a.png
 expect_failure 2 "--threads 0" "${small[@]}" --threads 0 -o a.png
+expect_failure 1 "cut into more" --size 65536x65536 --windows 1x1 -o a.pfm
 expect_failure 2 "cheese" "${small[@]}" --scene cheese -o a.png
 expect_failure 2 "--scene colonnade" "${small[@]}" --frame 3 -o a.png
 expect_failure 2 "--scene colonnade" "${small[@]}" --light-samples 2 -o a.png
