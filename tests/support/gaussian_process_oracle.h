@@ -49,9 +49,10 @@ inline Rows solve(Rows matrix, Rows right, Real* log_determinant = nullptr) {
 /// system (K 1; 1' 0), and the likelihood of all differences of the samples.
 struct GaussianProcess {
   std::vector<Real> means;
-  Real variance = 0;         ///< mean expected squared error of the averages
-  Real log_determinant = 0;  ///< of the covariance of the differences from the first sample
-  Real quadratic = 0;        ///< of these differences
+  std::vector<Real> variances;  ///< expected squared error of each
+  Real variance = 0;            ///< mean expected squared error of the averages
+  Real log_determinant = 0;     ///< of the covariance of the differences from the first sample
+  Real quadratic = 0;           ///< of these differences
 
   GaussianProcess(const freqsynth::Covariance& kernel, std::span<const freqsynth::UnitPoint> at,
                   std::span<const double> values, const freqsynth::AverageGrid& grid) {
@@ -80,7 +81,8 @@ struct GaussianProcess {
         error -= weights[i][p] * right[i][p];
       }
       means.push_back(mean);
-      variance += (error - weights[n][p]) / static_cast<Real>(grid.count());
+      variances.push_back(error - weights[n][p]);
+      variance += variances.back() / static_cast<Real>(grid.count());
     }
     Rows differences(n - 1, std::vector<Real>(n - 1)), of_values(n - 1);
     for (std::size_t i = 1; i < n; ++i) {

@@ -80,6 +80,9 @@ class FREQSYNTH_API InnovationList {
   void reserve(std::size_t count) const;
   /// Row `index`, built if need be. \throws std::invalid_argument unless below positions().size().
   [[nodiscard]] const InnovationRow& row(std::size_t index) const;
+  /// Expected squared error of each average after the first sample, per unit of the process's
+  /// variance. After sample i it is less by the squares of B_1 .. B_i.
+  [[nodiscard]] std::span<const double> first_variances() const { return first_variances_; }
   /// Bytes that the rows built so far take.
   [[nodiscard]] std::size_t memory() const;
 
@@ -91,6 +94,7 @@ class FREQSYNTH_API InnovationList {
 
   detail::BoxCovariance boxes_;
   std::vector<UnitPoint> positions_;
+  std::vector<double> first_variances_;
   // Growing on demand is invisible to the reader; hence a const list may grow.
   mutable std::atomic<std::size_t> size_{0};
   mutable std::vector<InnovationRow> rows_;  // as many as positions, of which size_ are built

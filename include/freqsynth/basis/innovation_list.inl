@@ -37,7 +37,6 @@ struct InnovationList::Factorization {
   std::size_t n, averages;
   std::vector<double> factor;  // packed columns of L; pivots on the diagonal, 0 where none is
   std::vector<double> gains;
-  double first_variance = 0;  // after the first sample
 
  private:
   void set_covariances(const detail::BoxCovariance& boxes, std::span<const UnitPoint> points);
@@ -77,10 +76,6 @@ FREQSYNTH_ROUNDING inline void InnovationList::Factorization::set_covariances(
     }
     values[0] += noise;
   }
-  double mean = 0;
-  for (std::size_t p = 0; p < averages; ++p) mean += gain(0)[p];
-  mean /= static_cast<double>(averages);
-  first_variance = (boxes.with_box({}) - mean) + (own - mean);
   for (std::size_t i = n; i-- > 1;) {
     for (std::size_t p = 0; p < averages; ++p) {
       gain(i)[p] = (gain(i)[p] - gain(0)[p]) + (own - with_first[i]);
@@ -112,16 +107,22 @@ FREQSYNTH_ROUNDING inline void InnovationList::Factorization::decompose(double v
   }
 }
 
-FREQSYNTH_INLINE InnovationList::InnovationList(const Covariance& covariance,
-                                                std::span<const UnitPoint> positions,
-                                                const AverageGrid& grid)
+FREQSYNTH_ROUNDING FREQSYNTH_INLINE InnovationList::InnovationList(
+    const Covariance& covariance, std::span<const UnitPoint> positions, const AverageGrid& grid)
     : boxes_(covariance, grid), positions_(positions.begin(), positions.end()) {
+  FREQSYNTH_ROUNDING_BEGIN
   detail::require(!positions.empty() && positions.size() <= max_positions, "positions.size()",
                   static_cast<double>(positions.size()), "in 1..2048");
   for (const UnitPoint& point : positions) {
     for (const double place : {point.s, point.t}) {
       detail::require(place >= -4 && place <= 5, "position", place, "in -4..5");
     }
+  }
+  std::vector<double> with_first(grid.count());
+  boxes_.with_point(positions[0], with_first);
+  const double box = boxes_.with_box({}), own = 1 + covariance.noise;
+  for (const double with_box : with_first) {
+    first_variances_.push_back((box - with_box) + (own - with_box));
   }
   rows_.resize(positions.size());
   growth_ = new Growth;
@@ -162,7 +163,9 @@ FREQSYNTH_ROUNDING FREQSYNTH_INLINE void InnovationList::grow(std::size_t count)
   detail::AlignedVector<float> numbers(room);
   growth_->numbers.reserve(growth_->numbers.size() + 1);
   float* next = numbers.data();
-  double variance = exact.first_variance, log_determinant = 0;
+  double variance = 0, log_determinant = 0;
+  for (const double first_variance : first_variances_) variance += first_variance;
+  variance /= static_cast<double>(grid().count());
   for (std::size_t i = 0; i < end; ++i) {
     const double pivot = exact.column(i)[0];
     const double* gains = exact.gain(i);

@@ -162,6 +162,18 @@ using ClampAround = void(const PaddedBlock& low, const float* least, const float
 using HoldFlat = void(const float* means, std::size_t stride, float alike, float most_off,
                       float* pixels);
 
+// Blocks side by side: number i of each of 48 is at i * lane_count + lane, aligned to 64 bytes.
+
+/// Lanes of the two kernels below.
+inline constexpr std::size_t lane_count = 48;
+/// Innovation `count` of each lane (basis/innovation_list.h) from its value and the innovations
+/// before it, behind which it is written:
+/// z_count = (value - sum_j factor(j) z_j) * inverse_pivot, added from the first to the last.
+using InnovateLanes = void(const float* factor, std::size_t count, float inverse_pivot,
+                           const float* values, float* innovations);
+/// sums(p) += weights(p) * value, for `count` sums of each lane.
+using AddLanes = void(const float* weights, std::size_t count, const float* values, float* sums);
+
 /// One version of all kernels.
 struct Kernels {
   const char* name;  ///< "plain", "avx2" or "avx512"
@@ -183,6 +195,8 @@ struct Kernels {
   ExtremesAround* extremes_around;
   ClampAround* clamp_around;
   HoldFlat* hold_flat;
+  InnovateLanes* innovate_lanes;
+  AddLanes* add_lanes;
 };
 
 /// The versions that this processor can run, from the plain one, which all can, to the best.
@@ -209,6 +223,8 @@ FREQSYNTH_API ValueOfRank value_of_rank;
 FREQSYNTH_API ExtremesAround extremes_around;
 FREQSYNTH_API ClampAround clamp_around;
 FREQSYNTH_API HoldFlat hold_flat;
+FREQSYNTH_API InnovateLanes innovate_lanes;
+FREQSYNTH_API AddLanes add_lanes;
 
 }  // namespace freqsynth::detail
 

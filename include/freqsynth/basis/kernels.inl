@@ -45,6 +45,7 @@
 #define FREQSYNTH_KERNEL_SET avx512
 #define FREQSYNTH_KERNEL_BYTES 64
 #define FREQSYNTH_KERNEL_TARGET __attribute__((target("avx512f,avx512dq,avx512vl")))
+#include "freqsynth/basis/kernels_lanes.inl"
 #include "freqsynth/basis/kernels_pack.inl"
 #include "freqsynth/basis/kernels_picture.inl"
 #include "freqsynth/basis/kernels_ranges.inl"
@@ -79,6 +80,8 @@ inline constexpr Kernels plain_kernels = {
     &plain::extremes_around,
     &plain::clamp_around,
     &plain::hold_flat,
+    &plain::innovate_lanes,
+    &plain::add_lanes,
 };
 #if defined(FREQSYNTH_KERNELS_AVX2)
 inline constexpr Kernels avx2_kernels = {
@@ -101,6 +104,8 @@ inline constexpr Kernels avx2_kernels = {
     &avx2::extremes_around,
     &avx2::clamp_around,
     &avx2::hold_flat,
+    &avx2::innovate_lanes,
+    &avx2::add_lanes,
 };
 #endif
 #if defined(FREQSYNTH_KERNELS_AVX512)
@@ -123,6 +128,8 @@ inline constexpr Kernels avx512_kernels = [] {
   kernels.extremes_around = &avx512::extremes_around;
   kernels.clamp_around = &avx512::clamp_around;
   kernels.hold_flat = &avx512::hold_flat;
+  kernels.innovate_lanes = &avx512::innovate_lanes;
+  kernels.add_lanes = &avx512::add_lanes;
   return kernels;
 }();
 #endif
@@ -182,6 +189,8 @@ inline constexpr Kernels undecided_kernels = {
     &Undecided<&Kernels::extremes_around>::call,
     &Undecided<&Kernels::clamp_around>::call,
     &Undecided<&Kernels::hold_flat>::call,
+    &Undecided<&Kernels::innovate_lanes>::call,
+    &Undecided<&Kernels::add_lanes>::call,
 };
 
 inline constinit std::atomic<const Kernels*> chosen{&undecided_kernels};

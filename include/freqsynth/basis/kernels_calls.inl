@@ -97,4 +97,14 @@ FREQSYNTH_INLINE void hold_flat(const float* means, std::size_t stride, float al
   kernels().hold_flat(means, stride, alike, most_off, pixels);
 }
 
+FREQSYNTH_INLINE void innovate_lanes(const float* factor, std::size_t count, float inverse_pivot,
+                                     const float* values, float* innovations) {
+  kernels().innovate_lanes(factor, count, inverse_pivot, values, innovations);
+}
+
+FREQSYNTH_INLINE void add_lanes(const float* weights, std::size_t count, const float* values,
+                                float* sums) {
+  kernels().add_lanes(weights, count, values, sums);
+}
+
 }  // namespace freqsynth::detail

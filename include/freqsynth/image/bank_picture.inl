@@ -1,0 +1,329 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "freqsynth/basis/check.h"
+#include "freqsynth/basis/rounding.h"
+#include "freqsynth/image/bank_picture.h"
+
+namespace freqsynth {
+namespace detail {
+
+/// How far outside the unit interval.
+inline double outside(double place) { return place < 0 ? -place : place > 1 ? place - 1 : 0; }
+
+/// The share of a block in a pixel, along one axis, whose centre lies `inside` pixels from a border
+/// that it shares: 0 and 1 where no blending is.
+inline float blend_share(double inside, std::size_t blend) {
+  if (blend == 0) return inside > 0 ? 1 : 0;
+  const double share = 0.5 + inside / (2 * static_cast<double>(blend));
+  return static_cast<float>(std::clamp(share, 0.0, 1.0));
+}
+
+}  // namespace detail
+
+FREQSYNTH_INLINE std::vector<BankPictures::RingSample> BankPictures::ring_of(
+    std::span<const UnitPoint> positions, std::size_t level, double reach) {
+  std::vector<RingSample> ring;
+  std::vector<UnitPoint> known;
+  for (std::size_t index = 0; index < level; ++index) {
+    for (int down = -1; down <= 1; ++down) {
+      for (int right = -1; right <= 1; ++right) {
+        const UnitPoint at{positions[index].s + right, positions[index].t + down};
+        const double distance = std::max(detail::outside(at.s), detail::outside(at.t));
+        // Those on the block's own border are its own.
+        if (!(distance > 0 && distance <= reach + 1e-9)) continue;
+        const bool twice = std::any_of(known.begin(), known.end(), [&](const UnitPoint& other) {
+          return at.s == other.s && at.t == other.t;
+        });
+        if (twice) continue;
+        known.push_back(at);
+        ring.push_back({right, down, index});
+      }
+    }
+  }
+  return ring;
+}
+
+FREQSYNTH_INLINE BankPictures::BankPictures(std::span<const UnitPoint> positions,
+                                            const BankPictureSettings& settings)
+    : settings_(settings) {
+  detail::require(!positions.empty() && positions.size() <= 1800, "positions.size()",
+                  static_cast<double>(positions.size()), "in 1..1800");
+  detail::require(settings.blend <= block_size / 2, "blend", static_cast<double>(settings.blend),
+                  "in 0..4");
+  const AverageGrid grid = AverageGrid::with_margin(block_size, settings.blend);
+  const auto add = [&](std::size_t level, std::vector<RingSample> ring) {
+    std::vector<UnitPoint> all;
+    for (const RingSample& sample : ring) {
+      const UnitPoint at = positions[sample.index];
+      all.push_back({at.s + sample.right, at.t + sample.down});
+    }
+    all.insert(all.end(), positions.begin(), positions.end());
+    kinds_.push_back(
+        {level, std::move(ring), std::make_unique<const BankLists>(settings.bank, all, grid)});
+  };
+  add(0, {});
+  double reach = 0.5;
+  for (const std::size_t level : {25, 81, 289}) {
+    if (settings.ring && level <= positions.size()) add(level, ring_of(positions, level, reach));
+    reach /= 2;
+  }
+}
+
+FREQSYNTH_INLINE std::size_t BankPictures::memory() const {
+  std::size_t bytes = 0;
+  for (const Kind& kind : kinds_) bytes += kind.lists->memory();
+  return bytes;
+}
+
+/// A picture in the making.
+struct BankPictures::Work {
+  Work(const BankPictures& pictures, std::span<const BlockSamples> samples, const PixelView& view,
+       std::size_t channel_count);
+
+  void estimate_rows(std::size_t first, std::size_t last);
+  void blend(std::size_t x, std::size_t y);
+  void fill(std::size_t x, std::size_t y, std::span<float> errors);
+  void divide();
+
+  [[nodiscard]] float* pixel(std::size_t x, std::size_t y) const {
+    return picture.data + static_cast<std::ptrdiff_t>(x) * picture.pixel_stride +
+           static_cast<std::ptrdiff_t>(y) * picture.row_stride;
+  }
+
+  [[nodiscard]] std::size_t kind_of(std::size_t x, std::size_t y) const;
+  /// Pixels of a block along one axis.
+  static std::size_t width_of(std::size_t block, std::size_t pixels) {
+    return std::min(block_size, pixels - block * block_size);
+  }
+  void set_shares(std::size_t block, std::size_t count, std::size_t pixels,
+                  std::vector<float>& shares) const;
+
+  const BankPictures& maker;
+  std::span<const BlockSamples> blocks;
+  PixelView picture;
+  std::size_t channels, columns, rows, margin, side;
+  std::vector<BankEstimator> estimators;                          // one of each kind
+  std::vector<float> gathered, averages, squared_errors, doubts;  // of the blocks at work
+  std::vector<float> weights;                                     // of each pixel of the picture
+  std::size_t first_row = 0;
+};
+
+FREQSYNTH_INLINE BankPictures::Work::Work(const BankPictures& pictures,
+                                          std::span<const BlockSamples> samples,
+                                          const PixelView& view, std::size_t channel_count)
+    : maker(pictures),
+      blocks(samples),
+      picture(view),
+      channels(channel_count),
+      columns((view.width + block_size - 1) / block_size),
+      rows((view.height + block_size - 1) / block_size),
+      margin(pictures.settings_.blend),
+      side(block_size + 2 * margin) {
+  for (const Kind& kind : maker.kinds_) {
+    estimators.emplace_back(*kind.lists, channels, maker.settings_.weights);
+  }
+}
+
+/// The largest ring that all blocks around have samples for.
+FREQSYNTH_INLINE std::size_t BankPictures::Work::kind_of(std::size_t x, std::size_t y) const {
+  if (x == 0 || y == 0 || x + 1 >= columns || y + 1 >= rows) return 0;
+  if (width_of(x + 1, picture.width) < block_size) return 0;
+  if (width_of(y + 1, picture.height) < block_size) return 0;
+  std::size_t least = static_cast<std::size_t>(-1);
+  for (std::size_t row = y - 1; row <= y + 1; ++row) {
+    for (std::size_t column = x - 1; column <= x + 1; ++column) {
+      if (row == y && column == x) continue;
+      least = std::min(least, blocks[row * columns + column].count);
+    }
+  }
+  std::size_t kind = 0;
+  while (kind + 1 < maker.kinds_.size() && maker.kinds_[kind + 1].level <= least) ++kind;
+  return kind;
+}
+
+/// Estimates the blocks of some rows, all of a kind at once.
+FREQSYNTH_INLINE void BankPictures::Work::estimate_rows(std::size_t first, std::size_t last) {
+  first_row = first;
+  const std::size_t count = (last - first) * columns;
+  const std::size_t room = channels * side * side;
+  averages.resize(count * room);
+  squared_errors.resize(count * side * side);
+  doubts.resize(count * side * side);
+  for (std::size_t k = 0; k < maker.kinds_.size(); ++k) {
+    const Kind& kind = maker.kinds_[k];
+    std::vector<BankNode> nodes;
+    std::vector<std::size_t> places;  // of the blocks at work
+    std::size_t numbers = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t x = i % columns, y = first + i / columns;
+      if (kind_of(x, y) != k) continue;
+      places.push_back(i);
+      numbers += (kind.ring.size() + blocks[y * columns + x].count) * channels;
+    }
+    gathered.resize(std::max(gathered.size(), numbers));
+    float* next = gathered.data();
+    for (const std::size_t i : places) {
+      const std::size_t x = i % columns, y = first + i / columns;
+      const BlockSamples& own = blocks[y * columns + x];
+      BankNode node;
+      node.values = next;
+      node.count = kind.ring.size() + own.count;
+      node.averages = averages.data() + i * room;
+      node.squared_errors = squared_errors.data() + i * side * side;
+      node.doubts = doubts.data() + i * side * side;
+      for (const RingSample& sample : kind.ring) {
+        const std::size_t column = x + static_cast<std::size_t>(sample.right);
+        const std::size_t row = y + static_cast<std::size_t>(sample.down);
+        const float* values = blocks[row * columns + column].values + sample.index * channels;
+        next = std::copy(values, values + channels, next);
+      }
+      next = std::copy(own.values, own.values + own.count * channels, next);
+      nodes.push_back(node);
+    }
+    estimators[k].estimate(nodes);
+  }
+}
+
+/// What share a block has in the pixels that it and its margins cover, along one axis. Beside a
+/// narrow block, and at the picture's border, nothing is blended.
+FREQSYNTH_INLINE void BankPictures::Work::set_shares(std::size_t block, std::size_t count,
+                                                     std::size_t pixels,
+                                                     std::vector<float>& shares) const {
+  const bool own = width_of(block, pixels) == block_size;
+  const bool before = own && block > 0;
+  const bool after = own && block + 1 < count && width_of(block + 1, pixels) == block_size;
+  shares.assign(side, 0);
+  for (std::size_t i = 0; i < side; ++i) {
+    const double centre = static_cast<double>(i) + 0.5 - static_cast<double>(margin);
+    shares[i] = detail::blend_share(centre, before ? margin : 0) *
+                detail::blend_share(block_size - centre, after ? margin : 0);
+  }
+}
+
+/// Adds a block of full size to its pixels and to those around.
+FREQSYNTH_ROUNDING FREQSYNTH_INLINE void BankPictures::Work::blend(std::size_t x, std::size_t y) {
+  FREQSYNTH_ROUNDING_BEGIN
+  std::vector<float> across, down;
+  set_shares(x, columns, picture.width, across);
+  set_shares(y, rows, picture.height, down);
+  const std::size_t block = (y - first_row) * columns + x;
+  const float* own = averages.data() + block * channels * side * side;
+  for (std::size_t j = 0; j < side; ++j) {
+    for (std::size_t i = 0; i < side; ++i) {
+      if (across[i] == 0 || down[j] == 0) continue;
+      const std::size_t px = x * block_size + i - margin, py = y * block_size + j - margin;
+      const float weight = across[i] * down[j] / doubts[(block * side + j) * side + i];
+      weights[py * picture.width + px] += weight;
+      float* out = pixel(px, py);
+      for (std::size_t c = 0; c < channels; ++c) {
+        out[static_cast<std::ptrdiff_t>(c) * picture.channel_stride] +=
+            weight * own[(c * side + j) * side + i];
+      }
+    }
+  }
+}
+
+/// Writes the pixels of a narrow block, each of which covers several of the eight parts along an
+/// axis; and the errors of any block.
+FREQSYNTH_ROUNDING FREQSYNTH_INLINE void BankPictures::Work::fill(std::size_t x, std::size_t y,
+                                                                  std::span<float> errors) {
+  FREQSYNTH_ROUNDING_BEGIN
+  const std::size_t width = width_of(x, picture.width), height = width_of(y, picture.height);
+  const bool narrow = width < block_size || height < block_size;
+  const std::size_t block = (y - first_row) * columns + x;
+  const auto cover = [](std::size_t at, std::size_t count, std::size_t part) {
+    const double scale = static_cast<double>(block_size) / static_cast<double>(count);
+    const double low = std::max(static_cast<double>(at) * scale, static_cast<double>(part));
+    const double high =
+        std::min(static_cast<double>(at + 1) * scale, static_cast<double>(part + 1));
+    return std::max(0.0, high - low) / scale;
+  };
+  const auto mean = [&](const float* numbers, std::size_t px, std::size_t py) {
+    double sum = 0;
+    for (std::size_t j = 0; j < block_size; ++j) {
+      for (std::size_t i = 0; i < block_size; ++i) {
+        sum += cover(px, width, i) * cover(py, height, j) *
+               double{numbers[(j + margin) * side + i + margin]};
+      }
+    }
+    return static_cast<float>(sum);
+  };
+  for (std::size_t py = 0; py < height; ++py) {
+    for (std::size_t px = 0; px < width; ++px) {
+      const std::size_t column = x * block_size + px, row = y * block_size + py;
+      const float* error = squared_errors.data() + block * side * side;
+      if (!errors.empty()) {
+        errors[row * picture.width + column] =
+            narrow ? mean(error, px, py) : error[(py + margin) * side + px + margin];
+      }
+      for (std::size_t c = 0; narrow && c < channels; ++c) {
+        const float* own = averages.data() + (block * channels + c) * side * side;
+        pixel(column, row)[static_cast<std::ptrdiff_t>(c) * picture.channel_stride] =
+            mean(own, px, py);
+        weights[row * picture.width + column] = 1;
+      }
+    }
+  }
+}
+
+FREQSYNTH_INLINE void BankPictures::Work::divide() {
+  for (std::size_t y = 0; y < picture.height; ++y) {
+    for (std::size_t x = 0; x < picture.width; ++x) {
+      const float weight = weights[y * picture.width + x];
+      for (std::size_t c = 0; c < channels; ++c) {
+        pixel(x, y)[static_cast<std::ptrdiff_t>(c) * picture.channel_stride] /= weight;
+      }
+    }
+  }
+}
+
+FREQSYNTH_INLINE void BankPictures::render(std::span<const BlockSamples> blocks,
+                                           const PixelView& picture, std::size_t channels,
+                                           std::span<float> errors) const {
+  const PixelView view = picture.resolved(channels);
+  Work work(*this, blocks, view, channels);
+  const auto refuse_count = [](const char* what, std::size_t count, std::size_t right) {
+    detail::refuse("there are " + std::to_string(count) + " " + what + ", not " +
+                   std::to_string(right));
+  };
+  const std::size_t count = work.columns * work.rows, pixels = view.width * view.height;
+  if (blocks.size() != count) refuse_count("blocks", blocks.size(), count);
+  if (!errors.empty() && errors.size() != pixels) refuse_count("errors", errors.size(), pixels);
+  for (const BlockSamples& block : blocks) {
+    detail::require(block.count >= 1 && block.count <= kinds_.front().lists->max_samples(), "count",
+                    static_cast<double>(block.count), "from 1 to that of positions");
+  }
+  work.weights.assign(pixels, 0);
+  for (std::size_t y = 0; y < view.height; ++y) {
+    for (std::size_t x = 0; x < view.width; ++x) {
+      for (std::size_t c = 0; c < channels; ++c) {
+        work.pixel(x, y)[static_cast<std::ptrdiff_t>(c) * view.channel_stride] = 0;
+      }
+    }
+  }
+  const std::size_t at_once = 1 + 255 / std::max<std::size_t>(1, work.columns);
+  for (std::size_t first = 0; first < work.rows; first += at_once) {
+    const std::size_t last = std::min(work.rows, first + at_once);
+    work.estimate_rows(first, last);
+    for (std::size_t y = first; y < last; ++y) {
+      for (std::size_t x = 0; x < work.columns; ++x) {
+        const bool whole = Work::width_of(x, view.width) == block_size &&
+                           Work::width_of(y, view.height) == block_size;
+        if (whole) work.blend(x, y);
+        if (!whole || !errors.empty()) work.fill(x, y, errors);
+      }
+    }
+  }
+  work.divide();
+}
+
+}  // namespace freqsynth

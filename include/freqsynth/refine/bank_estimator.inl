@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <span>
+#include <vector>
+
+#include "freqsynth/basis/check.h"
+#include "freqsynth/basis/kernels.h"
+#include "freqsynth/basis/rounding.h"
+#include "freqsynth/refine/bank_estimator.h"
+
+namespace freqsynth {
+namespace detail {
+
+/// Log posterior of a member that was not tried.
+inline constexpr double untried = -std::numeric_limits<double>::infinity();
+
+}  // namespace detail
+
+FREQSYNTH_INLINE BankEstimator::BankEstimator(const BankLists& lists, std::size_t channels,
+                                              const BankSettings& settings)
+    : lists_(lists), channels_(channels), settings_(settings) {
+  detail::require(channels >= 1 && channels <= 4096, "channels", static_cast<double>(channels),
+                  "in 1..4096");
+  detail::require(settings.temper >= 1 && settings.temper <= 1e6, "temper", settings.temper,
+                  "in 1..1e6");
+  detail::require(settings.inherit >= 0 && settings.inherit <= 1, "inherit", settings.inherit,
+                  "in 0..1");
+  const AverageGrid& grid = lists.grid();
+  for (std::size_t p = 0; p < grid.count(); ++p) {
+    const auto within = [&](std::size_t k) {
+      const double middle = grid.origin + (static_cast<double>(k) + 0.5) * grid.edge;
+      return middle > 0 && middle < 1;
+    };
+    inside_.push_back(within(p % grid.side) && within(p / grid.side));
+    inside_count_ += inside_.back() ? 1 : 0;
+  }
+  detail::require(inside_count_ > 0, "averages within the node", 0, "at least 1");
+}
+
+FREQSYNTH_INLINE void BankEstimator::estimate(std::span<BankNode> nodes) {
+  for (const BankNode& node : nodes) {
+    detail::require(node.count >= 1 && node.count <= lists_.max_samples(), "count",
+                    static_cast<double>(node.count), "a number of samples that the lists have");
+  }
+  constexpr std::size_t at_once = 512;
+  for (std::size_t first = 0; first < nodes.size(); first += at_once) {
+    load(nodes.subspan(first, std::min(at_once, nodes.size() - first)));
+    weigh_all();
+    choose();
+    for (std::size_t member = 0; member < lists_.size(); ++member) average(member);
+    store();
+  }
+}
+
+/// Sorts the nodes, and writes their values less the mean of each lane side by side.
+FREQSYNTH_ROUNDING inline void BankEstimator::load(std::span<BankNode> nodes) {
+  FREQSYNTH_ROUNDING_BEGIN
+  nodes_.clear();
+  for (BankNode& node : nodes) nodes_.push_back(&node);
+  std::stable_sort(nodes_.begin(), nodes_.end(),
+                   [](const BankNode* a, const BankNode* b) { return a->count > b->count; });
+  all_.resize(nodes_.size());
+  std::iota(all_.begin(), all_.end(), 0u);
+  lanes_ = nodes_.size() * channels_;
+  values_.assign(nodes_.front()->count * lanes_, 0);
+  bases_.resize(lanes_);
+  floors_.assign(nodes_.size(), 0);
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const BankNode& node = *nodes_[i];
+    for (std::size_t c = 0; c < channels_; ++c) {
+      double sum = 0, greatest = 0;
+      for (std::size_t k = 0; k < node.count; ++k) {
+        const double value = double{node.values[k * channels_ + c]};
+        sum += value;
+        greatest = std::max(greatest, value < 0 ? -value : value);
+      }
+      const std::size_t lane = i * channels_ + c;
+      const auto base = static_cast<float>(sum / static_cast<double>(node.count));
+      bases_[lane] = base;
+      for (std::size_t k = 0; k < node.count; ++k) {
+        values_[k * lanes_ + lane] = node.values[k * channels_ + c] - base;
+      }
+      // What rounding to float adds to each sample.
+      const double rounding = 0x1p-24 * greatest;
+      floors_[i] += rounding * rounding * static_cast<double>(node.count);
+    }
+  }
+  evidence_.assign(nodes_.size() * lists_.size(), detail::untried);
+  squares_.assign(nodes_.size() * lists_.size(), 0);
+  errors_.assign(nodes_.size() * lists_.grid().count(), 0);
+  doubts_.assign(errors_.size(), 0);
+  averages_.assign(lanes_ * lists_.grid().count(), 0);
+}
+
+/// Computes innovations of some nodes, and with `sums` their averages. Calls done(node, channel,
+/// sum of squares, lane in the chunk) for each lane.
+template <class Done>
+FREQSYNTH_ROUNDING void BankEstimator::innovate(std::size_t member,
+                                                std::span<const std::uint32_t> which, bool sums,
+                                                Done done) {
+  FREQSYNTH_ROUNDING_BEGIN
+  constexpr std::size_t width = detail::lane_count;
+  if (which.empty()) return;
+  const InnovationList& list = lists_[member];
+  const std::size_t most = nodes_[which.front()]->count;
+  list.reserve(most);
+  const std::size_t averages = list.grid().count();
+  chunk_.resize(width);
+  innovations_.resize(std::max(innovations_.size(), most * width));
+  if (sums) sums_.resize(averages * width);
+  const std::size_t lanes = which.size() * channels_;
+  for (std::size_t first = 0; first < lanes; first += width) {
+    const std::size_t used = std::min(width, lanes - first);
+    std::size_t from[width];
+    float squares[width] = {};
+    for (std::size_t l = 0; l < used; ++l) {
+      from[l] = which[(first + l) / channels_] * channels_ + (first + l) % channels_;
+    }
+    std::fill(chunk_.begin(), chunk_.end(), 0.0f);
+    if (sums) std::fill(sums_.begin(), sums_.end(), 0.0f);
+    std::size_t active = used;
+    const std::size_t rows = nodes_[from[0] / channels_]->count;
+    for (std::size_t i = 0; i < rows; ++i) {
+      while (nodes_[from[active - 1] / channels_]->count <= i) --active;
+      const float* values = values_.data() + i * lanes_;
+      for (std::size_t l = 0; l < used; ++l) chunk_[l] = values[from[l]];
+      const InnovationRow& row = list.row(i);
+      float* z = innovations_.data() + i * width;
+      detail::innovate_lanes(row.factor.data(), i, row.inverse_pivot, chunk_.data(),
+                             innovations_.data());
+      // Nodes whose samples are used up have no more innovations.
+      for (std::size_t l = active; l < width; ++l) z[l] = 0;
+      if (i > 0) {
+        for (std::size_t l = 0; l < width; ++l) squares[l] += z[l] * z[l];
+      }
+      if (sums) detail::add_lanes(row.gains.data(), averages, z, sums_.data());
+    }
+    for (std::size_t l = 0; l < used; ++l) {
+      done(from[l] / channels_, from[l] % channels_, squares[l], l);
+    }
+  }
+}
+
+FREQSYNTH_ROUNDING inline void BankEstimator::weigh(std::size_t member,
+                                                    std::span<const std::uint32_t> which) {
+  FREQSYNTH_ROUNDING_BEGIN
+  const std::size_t members = lists_.size();
+  innovate(member, which, false, [&](std::size_t node, std::size_t, float squares, std::size_t) {
+    squares_[node * members + member] += double{squares};
+  });
+  for (const std::uint32_t node : which) {
+    const BankNode& known = *nodes_[node];
+    const auto differences = static_cast<double>(known.count - 1);
+    // The scale is what makes the samples most likely.
+    double evidence = 0;
+    if (known.count > 1) {
+      const double squares = squares_[node * members + member] + floors_[node] + 1e-60;
+      evidence = -0.5 * (differences * detail::log_of(squares) +
+                         lists_[member].row(known.count - 1).log_determinant);
+    }
+    evidence /= settings_.temper;
+    if (known.parent != nullptr && double{known.parent[member]} > detail::untried) {
+      evidence += settings_.inherit * double{known.parent[member]};
+    }
+    evidence_[node * members + member] = evidence;
+  }
+}
+
+FREQSYNTH_INLINE void BankEstimator::weigh_all() {
+  for (const PriorGroup& group : lists_.bank().groups()) {
+    if (group.directions) {
+      weigh_directions(group);
+    } else {
+      for (std::size_t k = 0; k < group.count; ++k) weigh(group.first + k, all_);
+    }
+  }
+}
+
+/// Four directions, and then by halves those beside the best of each node.
+FREQSYNTH_INLINE void BankEstimator::weigh_directions(const PriorGroup& group) {
+  const std::size_t members = lists_.size();
+  std::size_t step = group.count / 4;
+  for (std::size_t k = 0; k < group.count; k += step) weigh(group.first + k, all_);
+  std::vector<std::size_t> best(nodes_.size());
+  for (step /= 2; step > 0; step /= 2) {
+    for (std::size_t node = 0; node < nodes_.size(); ++node) {
+      const double* own = evidence_.data() + node * members + group.first;
+      best[node] = static_cast<std::size_t>(std::max_element(own, own + group.count) - own);
+    }
+    for (std::size_t k = step; k < group.count; k += 2 * step) {
+      some_.clear();
+      for (const std::uint32_t node : all_) {
+        const std::size_t off = (k + group.count - best[node]) % group.count;
+        if (off == step || off == group.count - step) some_.push_back(node);
+      }
+      weigh(group.first + k, some_);
+    }
+  }
+}
+
+/// Log posteriors to posteriors, without those that do not count.
+FREQSYNTH_ROUNDING inline void BankEstimator::choose() {
+  FREQSYNTH_ROUNDING_BEGIN
+  constexpr double least = 0.001;
+  const std::size_t members = lists_.size();
+  for (std::size_t node = 0; node < nodes_.size(); ++node) {
+    const std::span<double> own(evidence_.data() + node * members, members);
+    const double best = *std::max_element(own.begin(), own.end());
+    double sum = 0;
+    for (std::size_t k = 0; k < members; ++k) {
+      if (float* out = nodes_[node]->posterior) out[k] = static_cast<float>(own[k] - best);
+      own[k] = detail::exp_minus(best - own[k]);
+      if (own[k] < least) own[k] = 0;
+      sum += own[k];
+    }
+    for (double& weight : own) weight /= sum;
+  }
+}
+
+/// Adds a member's averages, and their squares to the errors.
+FREQSYNTH_ROUNDING inline void BankEstimator::average(std::size_t member) {
+  FREQSYNTH_ROUNDING_BEGIN
+  const std::size_t members = lists_.size(), averages = lists_.grid().count();
+  some_.clear();
+  for (const std::uint32_t node : all_) {
+    if (evidence_[node * members + member] > 0) some_.push_back(node);
+  }
+  if (some_.empty()) return;
+  innovate(member, some_, true,
+           [&](std::size_t node, std::size_t channel, float, std::size_t lane) {
+             const double weight = evidence_[node * members + member];
+             double* out = averages_.data() + (node * channels_ + channel) * averages;
+             double* errors = errors_.data() + node * averages;
+             for (std::size_t p = 0; p < averages; ++p) {
+               const double value = double{sums_[p * detail::lane_count + lane]};
+               out[p] += weight * value;
+               errors[p] += weight * (value * value);
+             }
+           });
+  add_variances(member);
+}
+
+/// Adds what a member expects of its own errors.
+FREQSYNTH_ROUNDING inline void BankEstimator::add_variances(std::size_t member) {
+  FREQSYNTH_ROUNDING_BEGIN
+  const std::size_t members = lists_.size(), averages = lists_.grid().count();
+  const InnovationList& list = lists_[member];
+  std::vector<double> variances(list.first_variances().begin(), list.first_variances().end());
+  std::size_t row = 1;
+  // Those with the fewest samples first.
+  for (std::size_t i = some_.size(); i-- > 0;) {
+    const std::size_t node = some_[i], count = nodes_[node]->count;
+    for (; row < count; ++row) {
+      const float* gains = list.row(row).gains.data();
+      for (std::size_t p = 0; p < averages; ++p) {
+        variances[p] -= double{gains[p]} * double{gains[p]};
+      }
+    }
+    const double weight = evidence_[node * members + member];
+    const double scale = squares_[node * members + member] /
+                         static_cast<double>(std::max<std::size_t>(1, count - 1));
+    // Below it, variances are rounding.
+    constexpr double least = 1e-12;
+    double mean = 0;
+    for (std::size_t p = 0; p < averages; ++p) {
+      if (inside_[p]) mean += std::max(variances[p], least);
+    }
+    mean /= inside_count_;
+    double* errors = errors_.data() + node * averages;
+    double* doubts = doubts_.data() + node * averages;
+    for (std::size_t p = 0; p < averages; ++p) {
+      errors[p] += weight * scale * std::max(variances[p], 0.0);
+      doubts[p] += weight * (std::max(variances[p], least) / mean);
+    }
+  }
+}
+
+FREQSYNTH_ROUNDING inline void BankEstimator::store() {
+  FREQSYNTH_ROUNDING_BEGIN
+  const std::size_t averages = lists_.grid().count();
+  for (std::size_t node = 0; node < nodes_.size(); ++node) {
+    double* errors = errors_.data() + node * averages;
+    for (std::size_t c = 0; c < channels_; ++c) {
+      const std::size_t lane = node * channels_ + c;
+      const double* mean = averages_.data() + lane * averages;
+      float* out = nodes_[node]->averages + c * averages;
+      for (std::size_t p = 0; p < averages; ++p) {
+        // How far members are apart is the mean of their squares less the square of their mean.
+        errors[p] -= mean[p] * mean[p];
+        out[p] = static_cast<float>(double{bases_[lane]} + mean[p]);
+      }
+    }
+    if (float* out = nodes_[node]->squared_errors) {
+      for (std::size_t p = 0; p < averages; ++p) {
+        out[p] = static_cast<float>(std::max(errors[p], 0.0) / static_cast<double>(channels_));
+      }
+    }
+    if (float* out = nodes_[node]->doubts) {
+      for (std::size_t p = 0; p < averages; ++p) {
+        out[p] = static_cast<float>(doubts_[node * averages + p]);
+      }
+    }
+  }
+}
+
+}  // namespace freqsynth

@@ -1,0 +1,2 @@
+// SPDX-License-Identifier: MIT
+#include "freqsynth/image/bank_picture.inl"

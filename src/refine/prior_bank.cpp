@@ -1,0 +1,2 @@
+// SPDX-License-Identifier: MIT
+#include "freqsynth/refine/prior_bank.inl"
