@@ -122,7 +122,7 @@ void measure(const std::string& name, ThreadPool& pool) {
   const std::vector<float> truth = reference.pixels();
   std::printf("%s (reference off by %.2g)\n", name.c_str(), reference.standard_error());
   static std::map<std::tuple<std::size_t, bool, std::size_t>, std::unique_ptr<BankPictures>> made;
-  for (const std::size_t count : {25, 81, 289}) {
+  for (const std::size_t count : {std::size_t{25}, std::size_t{81}, std::size_t{289}}) {
     const InverseListSettings list;
     SampleSequence sequence(list.seed, list.positions);
     const auto positions = sequence_points(sequence, count);

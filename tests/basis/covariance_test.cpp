@@ -107,7 +107,7 @@ TEST(BoxCovariance, OfPointsIsThatOfAnIntegral) {
 
 TEST(BoxCovariance, OfBoxesIsTheMeanOfThatOfPoints) {
   for (const Covariance& covariance : oracle::covariances()) {
-    for (const std::size_t side : {8, 1}) {
+    for (const std::size_t side : {std::size_t{8}, std::size_t{1}}) {
       const AverageGrid grid = AverageGrid::of_node(side);
       const BoxCovariance boxes(covariance, grid);
       for (const UnitPoint d : {UnitPoint{0, 0}, UnitPoint{grid.edge, -0.2}}) {

@@ -54,7 +54,8 @@ TEST(LaneKernels, InnovationsAreWhatIsLeftOfEachLane) {
 }
 
 TEST(LaneKernels, SumsGrowByTheWeightedValuesAndNoOthers) {
-  for (const std::size_t count : {1, 7, 64, 144}) {
+  for (const std::size_t count :
+       {std::size_t{1}, std::size_t{7}, std::size_t{64}, std::size_t{144}}) {
     const auto before = random_values((count + 1) * lane_count, 3);
     const auto weights = random_values(count, 4), values = random_values(lane_count, 5);
     const auto sums = add(*runnable_kernels().front(), count);
@@ -73,7 +74,8 @@ TEST(LaneKernels, AllVersionsGiveTheSameBits) {
   const Kernels& plain = *runnable_kernels().front();
   for (const Kernels* version : runnable_kernels()) {
     EXPECT_TRUE(same(innovate(*version), innovate(plain))) << version->name;
-    for (const std::size_t count : {1, 7, 64, 144}) {
+    for (const std::size_t count :
+         {std::size_t{1}, std::size_t{7}, std::size_t{64}, std::size_t{144}}) {
       EXPECT_TRUE(same(add(*version, count), add(plain, count))) << version->name;
     }
   }

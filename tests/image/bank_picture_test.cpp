@@ -115,7 +115,8 @@ double greatest_error(const BankPictureSettings& settings, std::size_t width, st
 
 TEST(BankPictures, AreThoseOfASmoothFunctionWithRingAndBlendingAndOfAnySize) {
   for (const bool ring : {false, true}) {
-    for (const std::size_t blend : {0, 1, 2, 4}) {
+    for (const std::size_t blend :
+         {std::size_t{0}, std::size_t{1}, std::size_t{2}, std::size_t{4}}) {
       BankPictureSettings settings;
       settings.bank = small_bank();
       settings.ring = ring;
@@ -181,7 +182,7 @@ TEST(BankPictures, BlendingMakesBordersAgree) {
   // Where a block has few samples and its neighbour many, they disagree on the border.
   const auto at = points(25);
   double steps[2];
-  for (const std::size_t blend : {0, 2}) {
+  for (const std::size_t blend : {std::size_t{0}, std::size_t{2}}) {
     BankPictureSettings settings;
     settings.bank = small_bank();
     settings.ring = false;

@@ -215,9 +215,9 @@ TEST(BankEstimator, BeginsWithWhatTheParentFound) {
   const float parent[] = {-8, 0, -3};
   const Result child = estimate(lists, values, 3, parent);
   float expected[3];
-  for (int k = 0; k < 3; ++k) expected[k] = alone.posterior[k] + 0.5f * parent[k];
+  for (std::size_t k = 0; k < 3; ++k) expected[k] = alone.posterior[k] + 0.5f * parent[k];
   const float best = *std::max_element(expected, expected + 3);
-  for (int k = 0; k < 3; ++k) EXPECT_NEAR(child.posterior[k], expected[k] - best, 1e-5);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(child.posterior[k], expected[k] - best, 1e-5);
 }
 
 TEST(BankEstimator, DoubtsWhatLiesOutsideMore) {

@@ -45,11 +45,11 @@
 #define FREQSYNTH_KERNEL_SET avx512
 #define FREQSYNTH_KERNEL_BYTES 64
 #define FREQSYNTH_KERNEL_TARGET __attribute__((target("avx512f,avx512dq,avx512vl")))
-#include "freqsynth/basis/kernels_lanes.inl"
 #include "freqsynth/basis/kernels_pack.inl"
 #include "freqsynth/basis/kernels_picture.inl"
 #include "freqsynth/basis/kernels_ranges.inl"
 #include "freqsynth/basis/kernels_update.inl"
+#include "freqsynth/basis/kernels_wide.inl"
 #undef FREQSYNTH_KERNEL_SET
 #undef FREQSYNTH_KERNEL_BYTES
 #undef FREQSYNTH_KERNEL_TARGET

@@ -6,12 +6,12 @@
 // Nothing here calls a function that is not forced inline: it would be compiled for another
 // instruction set. All versions add in the same order, whatever the size of their registers.
 
-#include "freqsynth/basis/kernels_lanes.inl"
 #include "freqsynth/basis/kernels_pack.inl"
 #include "freqsynth/basis/kernels_picture.inl"
 #include "freqsynth/basis/kernels_ranges.inl"
 #include "freqsynth/basis/kernels_samples.inl"
 #include "freqsynth/basis/kernels_update.inl"
+#include "freqsynth/basis/kernels_wide.inl"
 
 namespace freqsynth::detail::FREQSYNTH_KERNEL_SET {
 
