@@ -84,6 +84,7 @@ set(FREQSYNTH_LAYERS
   "image/pixel_finisher.h|finished pixels: the fit and what it leaves over (beyond the paper)|"
   "image/noisy_picture.h|what samples have said of each pixel|"
   "image/linear_blend.h|linear interpolation between the centres of cells|"
+  "image/lone_peaks.h|pixels that one sample has made far brighter than all around (beyond the paper)|"
   "image/window_ranks.h|values of a moving window by their rank|"
   "image/guided_regression.h|noisy samples, regressed on what is known of each pixel|"
   "image/block_noise.h|steps and levels of blocks that noise explains|"

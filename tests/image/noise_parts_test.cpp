@@ -10,6 +10,7 @@
 
 #include "freqsynth/engine/thread_pool.h"
 #include "freqsynth/image/linear_blend.h"
+#include "freqsynth/image/lone_peaks.h"
 #include "freqsynth/image/smooth_noise.h"
 #include "freqsynth/image/window_ranks.h"
 #include "support/oracles.h"
@@ -36,6 +37,48 @@ TEST(WindowRanks, FollowASortedSet) {
                 *std::next(expected.begin(), static_cast<std::ptrdiff_t>(rank)));
     }
   }
+}
+
+/// 32 x 32 pixels of 1, each with a sample.
+NoisyPicture flat_picture() {
+  NoisyPicture picture{32, 32, NoisyPicture::Plane(32 * 32, 1.0f), {}, {}, {}};
+  picture.sums = {picture.weights};
+  picture.pixels = {picture.weights};
+  picture.variances = {NoisyPicture::Plane(16)};
+  return picture;
+}
+
+/// Gives a pixel some samples of a value, whose block's fit leaves out all of one of them.
+void add_peak(NoisyPicture& picture, std::size_t pixel, float samples, float value) {
+  picture.weights[pixel] = samples;
+  picture.sums[0][pixel] = samples * value;
+  picture.pixels[0][pixel] = value;
+  picture.variances[0][pixel / 32 / 8 * 4 + pixel % 32 / 8] =
+      (value - 1) * (value - 1) / (63 + samples);
+}
+
+TEST(LonePeaks, ThoseOfOneSampleGo) {
+  NoisyPicture picture = flat_picture();
+  const NoisyPicture::Plane flat = picture.pixels[0];
+  for (const std::size_t pixel : {0u, 9u * 32 + 20, 31u * 32 + 31}) {
+    add_peak(picture, pixel, 1, 100);
+  }
+  EXPECT_EQ(detail::LonePeaks(picture, 0).removed(), flat);
+}
+
+TEST(LonePeaks, ThoseThatSamplesAgreeOnStay) {
+  NoisyPicture picture = flat_picture();
+  add_peak(picture, 9 * 32 + 20, 2, 100);
+  EXPECT_EQ(detail::LonePeaks(picture, 0).removed(), picture.pixels[0]);
+}
+
+TEST(LonePeaks, LinesAndSpotsAreNone) {
+  NoisyPicture picture = flat_picture();
+  for (std::size_t x = 0; x < 32; ++x) add_peak(picture, 9 * 32 + x, 1, 100);
+  for (std::size_t y = 20; y < 25; ++y) {
+    for (std::size_t x = 20; x < 25; ++x) add_peak(picture, y * 32 + x, 1, 100);
+  }
+  EXPECT_EQ(detail::LonePeaks(picture, 0).removed(), picture.pixels[0]);
 }
 
 TEST(LinearBlend, IsBetweenTheCentresOfCells) {

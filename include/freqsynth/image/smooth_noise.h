@@ -5,10 +5,10 @@
 /// Twice the samples are regressed (GuidedRegression) on the finished pixels: first on those of the
 /// blocks' own fits, which know edges that nothing else tells, together with features; then on the
 /// result. These guides are made of the same samples, so their noise agrees with the samples'.
-/// Hence ridges in proportion to the variance that the noise of a pixel's mean has. In between,
-/// steps that noise leaves on borders of blocks are taken back, and so are differences between
-/// blocks that are noise alone. Each pass stays within the range of the pixels that it began with,
-/// 5 x 5 around each.
+/// Hence ridges in proportion to the variance that the noise of a pixel's mean has, and peaks that
+/// one sample has made are no guides (LonePeaks). In between, steps that noise leaves on borders of
+/// blocks are taken back, and so are differences between blocks that are noise alone. Each pass
+/// stays within the range of the pixels that it began with, 5 x 5 around each.
 #pragma once
 
 #include <cstddef>

@@ -11,6 +11,7 @@
 #include "freqsynth/engine/shared_work.h"
 #include "freqsynth/image/block_noise.h"
 #include "freqsynth/image/guided_regression.h"
+#include "freqsynth/image/lone_peaks.h"
 #include "freqsynth/image/smooth_noise.h"
 
 namespace freqsynth {
@@ -186,11 +187,15 @@ FREQSYNTH_INLINE void smooth_noise_on(NoisyPicture& picture, std::span<const std
   std::vector<GuidedRegression::Guide> guides =
       feature_guides(picture, features, feature_samples, executor);
   const GuidedRegression::Window window = window_of(picture);
+  std::vector<NoisyPicture::Plane> pilots(channels.size());
   bool first = true;
   for (const Pass& pass : passes) {
     for (std::size_t t = 0; t < channels.size(); ++t) {
       close_all(channels[t], pass.border);
-      const float* pilot = picture.pixels[channels[t]].data();
+      pilots[t] = picture.pixels[channels[t]];
+      // A fit that knows of a peak follows it; the samples still have its light, which is spread.
+      if (first) pilots[t] = LonePeaks(picture, channels[t]).removed(executor);
+      const float* pilot = pilots[t].data();
       guides.push_back({pilot, pilot, 0, pass.ridge, first ? variances[t].data() : nullptr, t});
     }
     const GuidedRegression regression(picture, window, guides, sums, executor);
@@ -199,9 +204,9 @@ FREQSYNTH_INLINE void smooth_noise_on(NoisyPicture& picture, std::span<const std
     regression.predict(std::vector<std::span<float>>(predictions.begin(), predictions.end()),
                        executor);
     for (std::size_t t = 0; t < channels.size(); ++t) {
-      NoisyPicture::Plane& pilot = picture.pixels[channels[t]];
-      hold_within(picture, pilot, predictions[t], executor);
-      pilot = std::move(predictions[t]);
+      NoisyPicture::Plane& known = picture.pixels[channels[t]];
+      hold_within(picture, known, predictions[t], executor);
+      known = std::move(predictions[t]);
     }
     guides.clear();
     first = false;
