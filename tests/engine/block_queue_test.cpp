@@ -55,6 +55,24 @@ TEST_P(BlockQueueOfSize, FollowsTheSortedListThroughRandomChanges) {
   }
 }
 
+TEST_P(BlockQueueOfSize, GrowsAndKeepsWhatItHad) {
+  BlockQueue queue(1);
+  std::vector<float> priorities(1, BlockQueue::absent);
+  oracle::Random random(static_cast<unsigned>(GetParam()));
+  while (priorities.size() < GetParam()) {
+    priorities.resize(std::min(GetParam(), priorities.size() + 1 + random.below(9)),
+                      BlockQueue::absent);
+    queue.grow(priorities.size());
+    ASSERT_EQ(queue.size(), priorities.size());
+    const std::size_t block = random.below(priorities.size());
+    queue.update(block, priorities[block] = random.value());
+    ASSERT_NO_FATAL_FAILURE(expect_same(queue, priorities));
+    for (std::size_t i = 0; i < priorities.size(); ++i) {
+      ASSERT_EQ(queue.priority(i), priorities[i]);
+    }
+  }
+}
+
 TEST_P(BlockQueueOfSize, TakesAllBlocksInOrder) {
   const std::size_t size = GetParam();
   BlockQueue queue(size);

@@ -8,6 +8,7 @@
 #include <bit>
 #include <cstddef>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "freqsynth/basis/config.h"
@@ -33,6 +34,10 @@ class BlockQueue {
   /// The block that is first. At least one block exists.
   [[nodiscard]] std::size_t top() const;
 
+  /// Makes it a queue of so many blocks, at least as many as it has; new ones are absent. What it
+  /// had stays. \throws std::bad_alloc, and nothing has changed.
+  void grow(std::size_t blocks);
+
   /// Sets the priority of a block; `absent` takes it out. Not a NaN.
   void update(std::size_t block, float priority);
 
@@ -55,6 +60,19 @@ inline BlockQueue::BlockQueue(std::size_t blocks) : blocks_(blocks) {
     count = groups;
   } while (count > 1);
   levels_.emplace_back(1, absent);
+}
+
+inline void BlockQueue::grow(std::size_t blocks) {
+  FREQSYNTH_ASSERT(blocks >= blocks_);
+  if (blocks <= levels_.front().size()) {
+    blocks_ = blocks;
+    return;
+  }
+  // Twice as many, so that each is copied a few times only.
+  BlockQueue larger(std::max(blocks, 2 * blocks_));
+  for (std::size_t block = 0; block < blocks_; ++block) larger.update(block, priority(block));
+  larger.blocks_ = blocks;
+  *this = std::move(larger);
 }
 
 inline std::size_t BlockQueue::top() const {

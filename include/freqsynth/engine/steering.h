@@ -18,9 +18,9 @@
 #include <vector>
 
 #include "freqsynth/basis/config.h"
-#include "freqsynth/basis/srgb.h"
 #include "freqsynth/engine/block_store.h"
 #include "freqsynth/engine/priority.h"
+#include "freqsynth/engine/seen_value.h"
 #include "freqsynth/refine/refiner.h"
 
 namespace freqsynth {
@@ -80,12 +80,8 @@ class Steering {
  private:
   friend struct StateArchive;
 
-  // The median of what blocks show is so many times the level below which relative errors are not.
-  static constexpr double levels_of_median = 64;
-
   [[nodiscard]] double seen(double value, std::size_t channel) const {
-    if (steer_ == Steer::relative) return std::asinh(value / levels_[channel]);
-    return detail::srgb_of_linear(std::clamp(value * exposure_, 0.0, 1.0));
+    return detail::seen_value(steer_, value, levels_[channel], exposure_);
   }
   // The largest variance of g, of values of which half are at either end.
   [[nodiscard]] float most() const { return steer_ == Steer::display ? 0.25f * weight_ : 1e31f; }
@@ -174,7 +170,7 @@ void Steering::set_level(const BlockStore<R>& blocks, std::size_t channel) {
   if (end == medians_.begin()) return;
   const auto middle = medians_.begin() + (end - medians_.begin()) / 2;
   std::nth_element(medians_.begin(), middle, end);
-  levels_[channel] = *middle / levels_of_median;
+  levels_[channel] = *middle / detail::levels_of_median;
 }
 
 /// Of what the blocks' means are seen as.
@@ -211,8 +207,6 @@ inline float energy(const std::array<float, max_terms>& coefficients) {
 /// Sets the slopes of a block.
 template <Refiner R>
 void Steering::look_at(const BlockStore<R>& blocks, std::uint32_t block) {
-  // A chord needs some length.
-  constexpr double least = 1e-6;
   std::array<float, max_terms> coefficients;
   for (std::size_t c = 0; c < weights_.size(); ++c) {
     if (weights_[c] == 0) continue;
@@ -220,10 +214,8 @@ void Steering::look_at(const BlockStore<R>& blocks, std::uint32_t block) {
     const double share = double{blocks.freedom(block)} / std::max(blocks.samples(block), 1u);
     double square = noisy_ ? 0 : double{blocks.residual(block, c)} * std::min(share, 1.0);
     square += double{detail::energy(coefficients)} / max_terms;
-    const double small = steer_ == Steer::relative ? levels_[c] : 1e-3 / exposure_;
-    const double reach = std::max(std::ldexp(std::sqrt(square), blocks.exponent(c)),
-                                  least * std::max(std::abs(middle), small));
-    const double slope = (seen(middle + reach, c) - seen(middle - reach, c)) / (2 * reach);
+    const double reach = std::ldexp(std::sqrt(square), blocks.exponent(c));
+    const double slope = detail::seen_slope(steer_, middle, reach, levels_[c], exposure_);
     slopes_[block * weights_.size() + c] = slope * slope;
   }
 }

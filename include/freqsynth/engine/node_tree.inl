@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <utility>
+
+#include "freqsynth/engine/node_tree.h"
+
+namespace freqsynth {
+
+// In a chunk: for each channel the sum of squared innovations; then the factors; and as rows, for
+// each channel its values and their innovations.
+inline NodeTree::NodeTree(const BlockGrid& grid, const NodePositions& positions, std::size_t limit,
+                          std::vector<float> weights, double noise)
+    : grid_(grid),
+      positions_(&positions),
+      refiner_(positions, std::move(weights), noise),
+      store_(2 * refiner_.channels(), 2 * refiner_.channels()),
+      nodes_(grid.size()),
+      found_(refiner_.channels()) {
+  for (std::uint32_t block = 0; block < nodes_.size(); ++block) {
+    nodes_[block].block = block;
+    nodes_[block].limit = static_cast<std::uint16_t>(limit);
+  }
+}
+
+inline double NodeTree::squares(std::uint32_t leaf) const {
+  const float* head = nodes_[leaf].chunk.data;
+  if (head == nullptr) return 0;
+  double sum = 0;
+  for (std::size_t c = 0; c < channels(); ++c) {
+    sum += double{refiner_.weights()[c]} * double{head[channels() + c]} * double{head[c]};
+  }
+  return sum;
+}
+
+inline TreePlace NodeTree::place(std::uint32_t number, std::size_t index) const {
+  const TreeNode& node = nodes_[number];
+  const NodePosition& position = positions_->of(node.of)[index];
+  const auto steps = [&](std::size_t block, std::uint16_t of, std::int32_t at) {
+    const std::int64_t inside = std::int64_t{of} * NodePositions::edge + at;
+    FREQSYNTH_ASSERT(inside % (std::int64_t{1} << node.depth) == 0);
+    return static_cast<std::int64_t>(block) * NodePositions::edge + (inside >> node.depth);
+  };
+  return {steps(grid_.column(node.block), node.column, position.s),
+          steps(grid_.row(node.block), node.row, position.t)};
+}
+
+inline BlockGrid::Point NodeTree::point(const TreePlace& place) const {
+  const auto pixels = [](std::int64_t at, std::size_t blocks, std::size_t length) {
+    const auto block = std::min(static_cast<std::size_t>(at / NodePositions::edge), blocks - 1);
+    const auto inside = at - static_cast<std::int64_t>(block) * NodePositions::edge;
+    return static_cast<double>(block * block_size) +
+           static_cast<double>(inside) / NodePositions::edge *
+               static_cast<double>(detail::block_length(block, length));
+  };
+  return {pixels(place.x, grid_.blocks_x, grid_.width),
+          pixels(place.y, grid_.blocks_y, grid_.height)};
+}
+
+inline double NodeTree::area(std::uint32_t number) const {
+  const TreeNode& node = nodes_[number];
+  const auto pixels =
+      static_cast<double>(grid_.block_width(node.block) * grid_.block_height(node.block));
+  return pixels / static_cast<double>(std::uint64_t{1} << (2 * node.depth));
+}
+
+inline float NodeTree::prediction(std::uint32_t leaf, std::size_t channel) const {
+  const TreeNode& node = nodes_[leaf];
+  if (node.samples == 0) return 0;
+  return values(leaf, channel).front() +
+         refiner_.prediction(node.of, node.samples, innovations(leaf, channel).data());
+}
+
+inline void NodeTree::absorb(std::uint32_t leaf, const float* values) {
+  TreeNode& node = nodes_[leaf];
+  FREQSYNTH_ASSERT(node.leaf() && !node.complete());
+  const std::size_t index = node.samples;
+  const bool fresh = !node.chunk;
+  store_.enlarge(node.chunk, std::max<std::size_t>(index, node.held), index + 1);
+  float* head = node.chunk.data;
+  if (fresh) std::fill(head + channels(), head + 2 * channels(), 1.0f);
+  for (std::size_t c = 0; c < channels(); ++c) {
+    float* known = store_.row(node.chunk, 2 * c);
+    float* innovations = store_.row(node.chunk, 2 * c + 1);
+    const float value = values[c];
+    known[index] = value;
+    // The first one tells of the constant alone.
+    if (index == 0) continue;
+    innovations[index] = refiner_.innovation(node.of, index, innovations, value - known[0]);
+    head[c] += innovations[index] * innovations[index];
+  }
+  ++node.samples;
+  ++absorbed_;
+  set_scale(leaf);
+}
+
+inline void NodeTree::set_factors(std::uint32_t leaf, std::span<const float> factors) {
+  std::copy(factors.begin(), factors.end(), nodes_[leaf].chunk.data + channels());
+  set_scale(leaf);
+}
+
+inline void NodeTree::set_scale(std::uint32_t leaf) {
+  TreeNode& node = nodes_[leaf];
+  if (node.samples > 1) node.scale = static_cast<float>(squares(leaf) / (node.samples - 1));
+}
+
+/// Whether the next sample is known; then its values are in `found_`.
+inline bool NodeTree::find_next(std::uint32_t leaf) {
+  const TreeNode& node = nodes_[leaf];
+  const std::uint32_t index = node.samples;
+  const auto take = [this](std::uint32_t from, std::uint32_t at) {
+    for (std::size_t c = 0; c < channels(); ++c) {
+      found_[c] = store_.row(nodes_[from].chunk, 2 * c)[at];
+    }
+  };
+  if (has(node, index)) {
+    take(leaf, index);
+    return true;
+  }
+  if (!NodePositions::on_border(positions_->of(node.of)[index])) return false;
+  bool found = false;
+  visit_touching(place(leaf, index), [&](std::uint32_t other, const NodePosition& there) {
+    if (found || other == leaf) return;
+    const std::uint32_t at = positions_->index_at(nodes_[other].of, there);
+    if (at == NodePositions::none || !has(nodes_[other], at)) return;
+    take(other, at);
+    found = true;
+  });
+  if (found || kept_.empty()) return found;
+  const auto kept = kept_.find(key(place(leaf, index)));
+  if (kept == kept_.end()) return false;
+  std::copy_n(kept_values_.begin() + static_cast<std::ptrdiff_t>(kept->second), channels(),
+              found_.begin());
+  return true;
+}
+
+inline std::size_t NodeTree::advance(std::uint32_t leaf) {
+  std::size_t count = 0;
+  for (; !nodes_[leaf].complete() && find_next(leaf); ++count) absorb(leaf, found_.data());
+  return count;
+}
+
+inline void NodeTree::split(std::uint32_t leaf, std::size_t limit) {
+  const std::size_t count = NodePositions::handed_down(nodes_[leaf].samples);
+  FREQSYNTH_ASSERT(nodes_[leaf].leaf() && count != 0 && nodes_[leaf].depth < deepest);
+  const auto first = static_cast<std::uint32_t>(nodes_.size());
+  for (std::uint32_t k = 0; k < 4; ++k) {
+    const TreeNode& parent = nodes_[leaf];
+    TreeNode quadrant;
+    quadrant.block = parent.block;
+    quadrant.column = static_cast<std::uint16_t>(2 * parent.column + (k & 1));
+    quadrant.row = static_cast<std::uint16_t>(2 * parent.row + (k >> 1));
+    quadrant.depth = static_cast<std::uint8_t>(parent.depth + 1);
+    quadrant.of = static_cast<std::uint8_t>(positions_->quadrant_class(parent.of, k));
+    quadrant.limit = static_cast<std::uint16_t>(std::max(limit, count));
+    quadrant.parent = leaf;
+    nodes_.push_back(quadrant);
+  }
+  for (std::uint32_t k = 0; k < 4; ++k) hand_down(leaf, k, count);
+  nodes_[leaf].quadrants = first;
+  store_.give_back(nodes_[leaf].chunk);
+  for (std::uint32_t k = 0; k < 4; ++k) advance(first + k);
+}
+
+/// Gives a quadrant what is its own of its parent's samples; nothing of it is taken in yet.
+inline void NodeTree::hand_down(std::uint32_t parent, std::size_t quadrant, std::size_t count) {
+  const TreeNode& from = nodes_[parent];
+  TreeNode& to = nodes_[nodes_.size() - 4 + quadrant];
+  store_.enlarge(to.chunk, 0, count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const bool same = positions_->same_place(from.of, quadrant, i);
+    FREQSYNTH_ASSERT(same || i < corners);
+    if (!same) {
+      keep_for_others(parent, positions_->in_parent(quadrant, i));
+      continue;
+    }
+    if (i < corners) to.held_corners = static_cast<std::uint8_t>(to.held_corners | (1u << i));
+    for (std::size_t c = 0; c < channels(); ++c) {
+      const float* values = store_.row(from.chunk, 2 * c);
+      store_.row(to.chunk, 2 * c)[i] = values[positions_->in_parent(quadrant, i)];
+    }
+  }
+  const float* factors = from.chunk.data + channels();
+  std::copy(factors, factors + channels(), to.chunk.data + channels());
+  to.held = static_cast<std::uint16_t>(count);
+}
+
+/// A block beside this one may still come to a sample that the deeper nodes here cannot use.
+inline void NodeTree::keep_for_others(std::uint32_t parent, std::size_t index) {
+  const TreePlace at = place(parent, index);
+  if (at.x % NodePositions::edge != 0 && at.y % NodePositions::edge != 0) return;
+  if (!kept_.emplace(key(at), kept_values_.size()).second) return;
+  for (std::size_t c = 0; c < channels(); ++c) {
+    kept_values_.push_back(store_.row(nodes_[parent].chunk, 2 * c)[index]);
+  }
+}
+
+}  // namespace freqsynth

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "freqsynth/basis/check.h"
+#include "freqsynth/basis/mix_bits.h"
+#include "freqsynth/engine/tree_sampler.h"
+
+namespace freqsynth {
+namespace detail {
+
+/// The settings, when they are in range.
+inline const TreeSettings& checked(const TreeSettings& settings) {
+  settings.validate();
+  return settings;
+}
+
+/// Weights whose sum is 1; of no channel's weight, all the same.
+inline std::vector<float> normalized(std::vector<float> weights) {
+  double sum = 0;
+  for (const float weight : weights) sum += double{weight};
+  for (float& weight : weights) {
+    weight = static_cast<float>(sum > 0 ? weight / sum : 1 / static_cast<double>(weights.size()));
+  }
+  return weights;
+}
+
+}  // namespace detail
+
+inline TreeSampler::TreeSampler(const TreeSettings& settings, SplitRule* rule)
+    : settings_(detail::checked(settings)),
+      rule_(rule),
+      positions_(settings.seed, settings.noisy ? 0 : settings.perturbation),
+      tree_(BlockGrid::of(settings.width, settings.height, settings.weights.size()), positions_,
+            settings.noisy        ? NodePositions::size
+            : settings.depth == 0 ? most
+                                  : split_at,
+            detail::normalized(settings.weights),
+            settings.noisy ? KrigingRefiner::noise_of_estimates : KrigingRefiner::noise_of_detail),
+      steering_(settings.steer, settings.exposure, settings.weights.size()),
+      queue_(tree_.size()),
+      pixels_(tree_.grid()),
+      frame_(detail::mix_bits(settings.seed + detail::golden_step)),
+      leaves_(tree_.size()),
+      is_touched_(tree_.size()),
+      told_(tree_.size()),
+      values_(tree_.channels()),
+      sums_(tree_.channels()),
+      usable_(tree_.channels()) {
+  if (settings_.noisy) settings_.depth = 0;
+  for (std::uint32_t leaf = 0; leaf < tree_.size(); ++leaf) queue_.update(leaf, priority(leaf));
+}
+
+inline TreeStats TreeSampler::stats() const {
+  TreeStats stats = stats_;
+  stats.absorbed = tree_.absorbed();
+  return stats;
+}
+
+/// Mean squared scale of the nodes beside a leaf.
+inline double TreeSampler::around(std::uint32_t leaf) const {
+  const TreeNode& node = tree_.node(leaf);
+  double sum = 0;
+  if (node.depth > 0) {
+    const std::uint32_t first = tree_.node(node.parent).quadrants;
+    for (std::uint32_t k = 0; k < 4; ++k) sum += double{tree_.node(first + k).scale};
+    return sum / 4;
+  }
+  int count = 0;
+  tree_.visit_blocks_around(leaf, [&](std::uint32_t other) {
+    sum += double{tree_.node(other).scale};
+    ++count;
+  });
+  return count > 0 ? sum / count : 0;
+}
+
+inline float TreeSampler::priority(std::uint32_t leaf) const {
+  constexpr std::size_t first = 5;
+  constexpr float urgent = 1e30f, doubt = 1e-12f;
+  const TreeNode& node = tree_.node(leaf);
+  if (!node.leaf() || node.complete()) return BlockQueue::absent;
+  if (node.samples < first) return urgent / static_cast<float>(node.samples + 1);
+  const double mean = scales_ / static_cast<double>(tree_.grid().size());
+  const double squares = tree_.squares(leaf) + double{doubt} * mean;
+  const double scale = KrigingRefiner::scale(squares, node.samples, around(leaf));
+  const double area = tree_.area(leaf);
+  const double share = area < 1 ? area * area : area;
+  const double gain = share * scale * double{tree_.refiner().variance(node.of, node.samples)} /
+                      static_cast<double>(node.samples);
+  return static_cast<float>(std::min(gain, 1e29));
+}
+
+inline std::span<const Request> TreeSampler::choose(std::uint64_t at_most) {
+  for (const std::uint32_t leaf : chosen_) queue_.update(leaf, priority(leaf));
+  chosen_.clear();
+  wave_.clear();
+  owners_.clear();
+  const std::size_t usual =
+      settings_.wave != 0 ? settings_.wave : std::max<std::size_t>(leaves_ / 32, 1);
+  const auto size = static_cast<std::size_t>(std::min<std::uint64_t>(usual, at_most));
+  while (chosen_.size() < size && queue_.top_priority() != BlockQueue::absent) {
+    const auto leaf = static_cast<std::uint32_t>(queue_.top());
+    queue_.update(leaf, BlockQueue::absent);
+    chosen_.push_back(leaf);
+  }
+  std::sort(chosen_.begin(), chosen_.end());
+  asked_.clear();
+  for (const std::uint32_t leaf : chosen_) add_request(leaf);
+  pixels_.reserve(wave_.size());
+  for (Request& request : wave_) request.ordinal = pixels_.next(request.pixel);
+  return wave_;
+}
+
+/// Asks for the next sample of a leaf, unless another one that touches it has asked for it.
+inline void TreeSampler::add_request(std::uint32_t leaf) {
+  const TreeNode& node = tree_.node(leaf);
+  const TreePlace place = tree_.place(leaf, node.samples);
+  const std::uint64_t id =
+      (static_cast<std::uint64_t>(place.y) << 32) | static_cast<std::uint64_t>(place.x);
+  if (NodePositions::on_border(positions_.of(node.of)[node.samples])) {
+    if (!asked_.insert(id).second) return;
+  }
+  const BlockGrid& grid = tree_.grid();
+  const BlockGrid::Point point = tree_.point(place);
+  const std::size_t edge = std::min(grid.block_width(node.block), grid.block_height(node.block));
+  Request request;
+  request.x = point.x;
+  request.y = point.y;
+  request.id = id;
+  request.spacing =
+      std::ldexp(positions_.spacing(node.samples) * static_cast<float>(edge), -int{node.depth});
+  request.slot = static_cast<std::uint32_t>(wave_.size());
+  request.seed = detail::mix_bits(id * detail::golden_step + frame_);
+  request.pixel = pixels_.pixel(point);
+  wave_.push_back(request);
+  owners_.push_back(leaf);
+}
+
+inline void TreeSampler::take_in(std::span<const float> values) {
+  const std::size_t channels = tree_.channels();
+  if (values.size() != wave_.size() * channels) {
+    detail::refuse(std::to_string(values.size()) + " values for " + std::to_string(wave_.size()) +
+                   " requests of " + std::to_string(channels) + " channels");
+  }
+  for (std::size_t i = 0; i < wave_.size(); ++i) {
+    const std::uint32_t leaf = owners_[i];
+    const TreePlace place = tree_.place(leaf, tree_.node(leaf).samples);
+    std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(i * channels), channels,
+                values_.begin());
+    repair(leaf);
+    tree_.absorb(leaf, values_.data());
+    tree_.advance(leaf);
+    note(leaf);
+    tree_.visit_touching(place, [&](std::uint32_t other, const NodePosition&) {
+      if (other != leaf && tree_.advance(other) > 0) note(other);
+    });
+  }
+  stats_.samples += wave_.size();
+  ++stats_.waves;
+  wave_.clear();
+  owners_.clear();
+  // More may come as nodes are split.
+  for (std::size_t i = 0; i < ripe_.size(); ++i) end_of(ripe_[i]);
+  ripe_.clear();
+  if (!steering_.settled()) settle();
+  for (const std::uint32_t leaf : touched_) is_touched_[leaf] = false;
+  for (const std::uint32_t leaf : touched_) update(leaf);
+  touched_.clear();
+}
+
+/// Once every block has had a sample, their priorities become others.
+inline void TreeSampler::settle() {
+  const auto blocks = static_cast<std::uint32_t>(tree_.grid().size());
+  for (std::uint32_t block = 0; block < blocks; ++block) {
+    const TreeNode& node = tree_.node(block);
+    if (node.leaf() && node.samples == 0) return;
+  }
+  steering_.settle(tree_);
+  if (steering_.linear()) return;
+  scales_ = 0;
+  for (std::uint32_t number = 0; number < tree_.size(); ++number) {
+    told_[number] = tree_.node(number).scale;
+    if (number < blocks) scales_ += double{told_[number]};
+  }
+  for (std::uint32_t leaf = 0; leaf < tree_.size(); ++leaf) queue_.update(leaf, priority(leaf));
+}
+
+/// Puts what is expected in the place of values that are not usable.
+inline void TreeSampler::repair(std::uint32_t leaf) {
+  bool bad = false;
+  for (std::size_t c = 0; c < values_.size(); ++c) {
+    if (is_usable_sample(values_[c]) && std::abs(values_[c]) <= most_value) {
+      sums_[c] += double{values_[c]};
+      ++usable_[c];
+      continue;
+    }
+    bad = true;
+    values_[c] = tree_.node(leaf).samples > 0 ? tree_.prediction(leaf, c)
+                 : usable_[c] > 0 ? static_cast<float>(sums_[c] / static_cast<double>(usable_[c]))
+                                  : 0.0f;
+  }
+  stats_.bad += bad ? 1 : 0;
+}
+
+/// A leaf has taken in samples.
+inline void TreeSampler::note(std::uint32_t leaf) {
+  if (tree_.node(leaf).complete()) ripe_.push_back(leaf);
+  if (is_touched_[leaf]) return;
+  is_touched_[leaf] = true;
+  touched_.push_back(leaf);
+}
+
+/// A leaf has had all samples that it was to have.
+inline void TreeSampler::end_of(std::uint32_t leaf) {
+  const TreeNode& node = tree_.node(leaf);
+  if (!node.leaf() || !node.complete() || node.depth >= settings_.depth) return;
+  if (node.samples < most && rule_ != nullptr && rule_->goes_on(tree_, leaf)) {
+    tree_.raise_limit(leaf, most);
+    tree_.advance(leaf);
+    return;
+  }
+  const auto first = static_cast<std::uint32_t>(tree_.size());
+  tree_.split(leaf, node.depth + std::size_t{1} < settings_.depth ? split_at : most);
+  ++stats_.splits;
+  leaves_ += 3;
+  is_touched_.resize(tree_.size());
+  told_.resize(tree_.size());
+  queue_.grow(tree_.size());
+  for (std::uint32_t quadrant = first; quadrant < tree_.size(); ++quadrant) note(quadrant);
+}
+
+/// Puts a leaf where it belongs in the queue, and those beside it that have to hear of it.
+inline void TreeSampler::update(std::uint32_t leaf) {
+  steering_.look_at(tree_, leaf);
+  const TreeNode& node = tree_.node(leaf);
+  const float scale = node.scale;
+  queue_.update(leaf, priority(leaf));
+  const bool news = scale > 1.25f * told_[leaf] || scale < 0.8f * told_[leaf];
+  if (!news) return;
+  if (node.depth == 0) scales_ += double{scale} - double{told_[leaf]};
+  told_[leaf] = scale;
+  const auto tell = [this](std::uint32_t other) {
+    if (queue_.priority(other) != BlockQueue::absent) queue_.update(other, priority(other));
+  };
+  if (node.depth == 0) {
+    tree_.visit_blocks_around(leaf, tell);
+  } else {
+    const std::uint32_t first = tree_.node(node.parent).quadrants;
+    for (std::uint32_t k = 0; k < 4; ++k) tell(first + k);
+  }
+}
+
+template <class F>
+void TreeSampler::run(F&& sampler, std::uint64_t samples) {
+  detail::check_sampler<std::remove_cvref_t<F>>();
+  std::vector<float> values;
+  while (stats_.samples < samples) {
+    const std::span<const Request> wave = choose(samples - stats_.samples);
+    if (wave.empty()) return;
+    values.resize(wave.size() * tree_.channels());
+    std::size_t done = 0;
+    detail::call_sampler(sampler, wave, std::span<float>(values), done);
+    take_in(values);
+  }
+}
+
+}  // namespace freqsynth

@@ -1,0 +1,2 @@
+// SPDX-License-Identifier: MIT
+#include "freqsynth/basis/node_positions.inl"

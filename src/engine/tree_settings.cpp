@@ -1,0 +1,2 @@
+// SPDX-License-Identifier: MIT
+#include "freqsynth/engine/tree_settings.inl"
