@@ -76,6 +76,7 @@ set(FREQSYNTH_LAYERS
   "engine/node_store.h|memory for the samples of nodes, which grows with them|"
   "engine/node_tree.h|blocks split into quadrants, and these again: what each has been told|"
   "engine/split_rule.h|whether a node is split: the interface of a rule|"
+  "engine/direction_rule.h|keeps nodes whole that one direction explains|"
   "engine/tree_settings.h|what the sampling of a tree depends on|"
   "engine/tree_steering.h|in what unit the errors of nodes are compared|"
   "engine/tree_sampler.h|chooses samples with a tree of nodes, and splits these|"

@@ -101,7 +101,13 @@ class NodeTree {
     const TreeNode& node = nodes_[leaf];
     return {store_.row(node.chunk, 2 * channel + 1), node.samples};
   }
-  /// Sum of the squares of those of a channel.
+  /// Whether a leaf waits for a corner before it can take in what was handed down to it.
+  [[nodiscard]] bool waits(std::uint32_t leaf) const {
+    return nodes_[leaf].samples < nodes_[leaf].held;
+  }
+  /// Mean of all values of a channel that a leaf knows, those that wait included; 0 without any.
+  [[nodiscard]] float known_mean(std::uint32_t leaf, std::size_t channel) const;
+  /// Sum of the squares of the innovations of a channel.
   [[nodiscard]] float squares(std::uint32_t leaf, std::size_t channel) const {
     return nodes_[leaf].chunk.data[channel];
   }

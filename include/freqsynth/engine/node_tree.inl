@@ -34,6 +34,18 @@ inline double NodeTree::squares(std::uint32_t leaf) const {
   return sum;
 }
 
+inline float NodeTree::known_mean(std::uint32_t leaf, std::size_t channel) const {
+  const TreeNode& node = nodes_[leaf];
+  double sum = 0;
+  std::size_t count = 0;
+  for (std::uint32_t i = 0; i < std::max(node.samples, node.held); ++i) {
+    if (!has(node, i)) continue;
+    sum += double{store_.row(node.chunk, 2 * channel)[i]};
+    ++count;
+  }
+  return count > 0 ? static_cast<float>(sum / static_cast<double>(count)) : 0.0f;
+}
+
 inline TreePlace NodeTree::place(std::uint32_t number, std::size_t index) const {
   const TreeNode& node = nodes_[number];
   const NodePosition& position = positions_->of(node.of)[index];
@@ -78,6 +90,7 @@ inline void NodeTree::absorb(std::uint32_t leaf, const float* values) {
   const std::size_t index = node.samples;
   const bool fresh = !node.chunk;
   store_.enlarge(node.chunk, std::max<std::size_t>(index, node.held), index + 1);
+  const InnovationRow& row = refiner_.list(node.of).row(index);
   float* head = node.chunk.data;
   if (fresh) std::fill(head + channels(), head + 2 * channels(), 1.0f);
   for (std::size_t c = 0; c < channels(); ++c) {
@@ -87,7 +100,7 @@ inline void NodeTree::absorb(std::uint32_t leaf, const float* values) {
     known[index] = value;
     // The first one tells of the constant alone.
     if (index == 0) continue;
-    innovations[index] = refiner_.innovation(node.of, index, innovations, value - known[0]);
+    innovations[index] = innovation_of(row, innovations, value - known[0]);
     head[c] += innovations[index] * innovations[index];
   }
   ++node.samples;

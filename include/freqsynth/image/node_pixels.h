@@ -16,12 +16,16 @@
 namespace freqsynth {
 
 /// What the covariance that steers makes of a leaf: the averages of its parts,
-/// NodePositions::pixels of its class squared, row by row. Zeros without a sample.
+/// NodePositions::pixels of its class squared, row by row. Of a leaf that waits, the mean of what
+/// it knows. Zeros without a sample.
 inline void rough_averages(const NodeTree& tree, std::uint32_t leaf, std::size_t channel,
                            std::span<float> averages) {
-  std::fill(averages.begin(), averages.end(), 0.0f);
   const TreeNode& node = tree.node(leaf);
-  if (node.samples == 0) return;
+  if (node.samples == 0 || tree.waits(leaf)) {
+    std::fill(averages.begin(), averages.end(), tree.known_mean(leaf, channel));
+    return;
+  }
+  std::fill(averages.begin(), averages.end(), 0.0f);
   const std::span<const float> innovations = tree.innovations(leaf, channel);
   const InnovationList& list = tree.refiner().list(node.of);
   for (std::size_t i = 1; i < innovations.size(); ++i) {
