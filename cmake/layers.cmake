@@ -112,6 +112,7 @@ set(FREQSYNTH_LAYERS
   "image/block_sinks.h|where the coefficients of single blocks go: an image, or pixels|"
   "image/block_images.h|images of the blocks, as the fit is and finished|4"
   "image/node_pixels.h|a picture from the leaves of a tree|"
+  "image/tree_pictures.h|a picture from the leaves of a tree by a bank of priors|"
   "jpeg/quantization_target.h|a stop rule and priority for a synthesis that ends in a quantiser|1, 2, 6"
   "jpeg/quantizer_measure.h|the measure of such a synthesis|1, 2, 6"
   "jpeg/quantization_tables.h|the tables of the JPEG standard, finer and coarser|2"

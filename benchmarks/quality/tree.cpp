@@ -19,7 +19,7 @@
 #include "freqsynth/engine/direction_rule.h"
 #include "freqsynth/engine/thread_pool.h"
 #include "freqsynth/engine/tree_sampler.h"
-#include "freqsynth/image/node_pixels.h"
+#include "freqsynth/image/tree_pictures.h"
 #include "quality/methods.h"
 #include "quality/metrics.h"
 #include "quality/reference.h"
@@ -95,10 +95,10 @@ baselines::Rendering by_tree(const baselines::Radiance& radiance, const baseline
         }
       },
       job.samples);
-  result.pixels = freqsynth::node_pixels(
-      sampler.tree(), [&](std::uint32_t leaf, std::size_t channel, std::span<float> averages) {
-        freqsynth::rough_averages(sampler.tree(), leaf, channel, averages);
-      });
+  freqsynth::TreePictures pictures(sampler.tree().positions(), job.noisy
+                                                                   ? freqsynth::PriorBank::noisy()
+                                                                   : freqsynth::PriorBank::exact());
+  result.pixels = pictures.pixels(sampler.tree());
   for (float& pixel : result.pixels) pixel = pixel > 0 ? pixel : 0;
   return result;
 }
