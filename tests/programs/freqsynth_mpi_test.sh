@@ -150,21 +150,24 @@ done
 expect_failure 1 "no state of windows" "${small[@]}" --windows 2x2 --resume state_then -o a.png
 expect_failure 1 "missing" "${small[@]}" --resume missing -o a.png
 
-# The same in windows.
+# The same in windows, when the first of them is done.
 windows=(--scene cornell --size 136x104 --spp 1 --windows 4x3)
 on 1 "${windows[@]}" -o windows.pfm >said
-rm -f state
-on 3 "${windows[@]}" --sleep 100 --checkpoint state --checkpoint-every 0.1 -o lost.pfm >said 2>&1 &
-for ((i = 0; i < 300; ++i)); do
-  [[ ! -e state ]] || break
+rm -f state state_then
+on 3 "${windows[@]}" --sleep 500 --checkpoint state --checkpoint-every 0.1 -o lost.pfm >said 2>&1 &
+for ((i = 0; i < 600; ++i)); do
+  if [[ ! -e state_then && -e state ]]; then cp state state_then; fi
+  [[ ! -e state_then ]] || cmp -s state state_then || break
   sleep 0.1
 done
 kill -KILL $(ps -o pid= --ppid $!)
 wait $! || true
 [[ -e state && ! -e lost.pfm ]] || fail "nothing was lost: $(cat said)"
 for ranks in 1 3; do
-  on $ranks "${windows[@]}" --resume state -o resumed.pfm >said
+  on $ranks "${windows[@]}" --resume state -o resumed.pfm --stats s.json >said
   cmp windows.pfm resumed.pfm || fail "other windows on $ranks ranks after the loss of all"
+  left=($(sed -n 's/.*"windows": \[\(.*\)\].*/\1/p' s.json | tr -d ,))
+  ((${#left[@]} < 12)) || fail "all windows are made again"
 done
 # Of a run that has ended nothing is left to do.
 on 3 "${windows[@]}" --checkpoint state -o again.pfm >said
