@@ -40,6 +40,9 @@ int serve(const Options& options) {
   std::printf("http://%s:%u/\n", v6 ? ("[" + options.host + "]").c_str() : options.host.c_str(),
               server.port());
   std::fflush(stdout);
+  if (options.host != Options{}.host) {
+    std::fprintf(stderr, "freqsynth_live: all who reach this address can look, point and store\n");
+  }
   session.run([] { return noted_interrupt() == 0; });
   if (!session.board().newest()) {
     std::fprintf(stderr, "freqsynth_live: too early for a picture\n");

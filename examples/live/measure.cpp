@@ -44,8 +44,7 @@ class Client {
   /// Of the thread so far; a browser is another process.
   [[nodiscard]] double cpu() const { return cpu_; }
   [[nodiscard]] std::size_t revisions() const { return revisions_; }
-  [[nodiscard]] double first() const { return first_; }      ///< seconds after the beginning
-  [[nodiscard]] double longest() const { return longest_; }  ///< between two, seconds
+  [[nodiscard]] double first() const { return first_; }  ///< seconds after the beginning
 
  private:
   void work(unsigned port) {
@@ -53,7 +52,6 @@ class Client {
     http.set_keep_alive(true);
     http.set_tcp_nodelay(true);
     std::uint64_t revision = 0;
-    double before = 0;
     while (!stopping_) {
       const auto state = http.Get("/state?after=" + std::to_string(revision));
       if (!state || state->status != 200) continue;
@@ -64,19 +62,14 @@ class Client {
         const auto picture = http.Get(path);
         if (!picture || picture->body.empty()) break;
         if (std::string(path) != "/picture.jpg") continue;
-        const double now = seconds_since(begin_);
-        if (++revisions_ == 1)
-          first_ = now;
-        else
-          longest_ = std::max(longest_.load(), now - before);
-        before = now;
+        if (++revisions_ == 1) first_ = seconds_since(begin_);
       }
       cpu_ = cpu_seconds(CLOCK_THREAD_CPUTIME_ID);
     }
   }
 
   Clock::time_point begin_;
-  std::atomic<double> cpu_ = 0, first_ = 0, longest_ = 0;
+  std::atomic<double> cpu_ = 0, first_ = 0;
   std::atomic<std::size_t> revisions_ = 0;
   std::atomic<bool> stopping_ = false;
   std::thread thread_;
@@ -97,11 +90,11 @@ double plain_cost(const Options& options, const Subject& subject, double target)
 }
 
 struct Served {
-  double cost = 0;     ///< as above, the client's own aside
-  double first = 0;    ///< seconds from the beginning, the scene included
-  double made = 0;     ///< of which for the scene and the server
-  double rate = 0;     ///< revisions a second
-  double longest = 0;  ///< seconds between two of them
+  double cost = 0;      ///< as above, the client's own aside
+  double first = 0;     ///< seconds from the beginning, the scene included
+  double made = 0;      ///< of which for the scene and the server
+  double rate = 0;      ///< revisions a second
+  double cpu_rate = 0;  ///< revisions in a second of CPU time: does not depend on other programs
 };
 
 Served served_cost(Options options, double target) {
@@ -120,14 +113,14 @@ Served served_cost(Options options, double target) {
     if (samples < target) return true;
     const double cpu = cpu_seconds(CLOCK_PROCESS_CPUTIME_ID) - before - client.cpu();
     served.cost = 1e6 * cpu / samples;
-    const double since_first = seconds_since(begin) - client.first();
     served.first = client.first();
-    served.rate = static_cast<double>(client.revisions() - 1) / since_first;
-    served.longest = client.longest();
+    const auto later = static_cast<double>(client.revisions()) - 1;
+    served.rate = later / (seconds_since(begin) - served.first);
+    served.cpu_rate = later / cpu;
     return false;
   });
   client.stop();
-  if (client.revisions() < 2) throw std::runtime_error("--measure: --spp is too few to measure");
+  if (client.revisions() == 0) throw std::runtime_error("--measure: --spp is too few to measure");
   return served;
 }
 
@@ -142,20 +135,20 @@ int measure(const Options& options) {
   const auto subject = make_subject(options.scene, options.width, options.height);
   const double target =
       options.samples_per_pixel * static_cast<double>(options.width * options.height);
-  std::vector<double> plain, cost, ratio, first, made, rate, longest;
+  std::vector<double> plain, cost, ratio, first, made, rate, cpu_rate;
   for (std::size_t i = 0; i < options.measure; ++i) {
     plain.push_back(plain_cost(options, *subject, target));
     const Served served = served_cost(options, target);
     cost.push_back(served.cost);
     ratio.push_back(served.cost / plain.back());
-    first.push_back(1e3 * served.first);
-    made.push_back(1e3 * served.made);
+    first.push_back(served.first);
+    made.push_back(served.made);
     rate.push_back(served.rate);
-    longest.push_back(served.longest);
+    cpu_rate.push_back(served.cpu_rate);
   }
-  std::printf("| %s %zux%zu | %.0f ms | %.0f ms | %.1f | %.2f s | %.2f us | %.2f us | %.3f |\n",
+  std::printf("| %s | %zu x %zu | %.2f s | %.2f s | %.1f | %.1f | %.2f us | %.2f us | %.3f |\n",
               options.scene.c_str(), options.width, options.height, median(made), median(first),
-              median(rate), median(longest), median(plain), median(cost), median(ratio));
+              median(rate), median(cpu_rate), median(plain), median(cost), median(ratio));
   return 0;
 }
 

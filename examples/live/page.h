@@ -5,7 +5,8 @@
 
 namespace live {
 
-/// page.html, as it was when this was built; TOKEN stands for a Guard's token.
+/// page.html with page.css and page.js in it, as they were when this was built. TOKEN stands for a
+/// Guard's token.
 extern const std::string_view page;
 
 }  // namespace live

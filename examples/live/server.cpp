@@ -9,6 +9,7 @@
 #include <string>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "common/option_values.h"
 #include "crew.h"
@@ -114,13 +115,11 @@ struct Server::Implementation {
     });
     http.Get("/state", [this](const httplib::Request& request, httplib::Response& response) {
       std::uint64_t after = 0;
-      read_all(request.get_param_value("after"), after);
-      Board::Shared newest;
-      if (++waiting <= most_waiting) {
-        newest = session.board().newer_than(after, longest_wait);
-      } else {
-        newest = session.board().newest();
-      }
+      const bool waits = read_all(request.get_param_value("after"), after);
+      const bool may_wait = ++waiting <= most_waiting;
+      const Board::Shared newest = waits && may_wait
+                                       ? session.board().newer_than(after, longest_wait)
+                                       : session.board().newest();
       --waiting;
       response.set_content(state_message(session, newest.get()), "application/json");
     });
@@ -129,7 +128,7 @@ struct Server::Implementation {
     add_picture("/error.jpg", &Revision::error);
   }
 
-  void add_picture(const char* path, std::string Revision::*bytes) {
+  void add_picture(const char* path, std::vector<std::uint8_t> Revision::*bytes) {
     http.Get(path, [this, bytes](const httplib::Request&, httplib::Response& response) {
       const Board::Shared newest = session.board().newest();
       if (!newest || ((*newest).*bytes).empty()) return answer(response, 404, "not yet\n");
@@ -138,8 +137,8 @@ struct Server::Implementation {
       response.set_content_provider(
           ((*newest).*bytes).size(), "image/jpeg",
           [newest, bytes](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
-            return sink.write(((*newest).*bytes).data() + offset,
-                              std::min<std::size_t>(length, 1 << 14));
+            const auto* const begin = reinterpret_cast<const char*>(((*newest).*bytes).data());
+            return sink.write(begin + offset, std::min<std::size_t>(length, 1 << 14));
           });
     });
   }

@@ -3,7 +3,7 @@
 /// A session in the browser, by HTTP.
 ///
 ///     GET  /                             the page
-///     GET  /state?after=N                JSON; waits for a revision above N, for some seconds
+///     GET  /state                        JSON; with ?after=N it waits for a revision above N
 ///     GET  /picture.jpg, /density.jpg, /error.jpg    of the newest revision
 ///     POST /attention, /view, /store     JSON; see messages.h and guard.h
 #pragma once

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "session.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -29,15 +30,14 @@ Session::Session(const Options& options, const Subject& subject)
       engine_(
           make_engine(options.resume, settings_of(options.width, options.height, subject.noisy()))),
       picture_pace_(picture_share),
-      error_pace_(error_share) {
-  last_.predicted_error = -1;
-}
+      error_pace_(error_share) {}
 
 void Session::run(const std::function<bool()>& going_on) {
   Sampling sampling(engine_, subject_, options_.samples_per_pixel, options_.threads);
   picture_pace_ = Pace(picture_share);
   error_pace_ = Pace(error_share);
   while (going_on()) {
+    if (sampling.ended()) sampling.stop();  // says what went wrong
     update(sampling);
     std::unique_lock lock(mutex_);
     asked_.wait_for(lock, milliseconds(10), [&] { return view_asked_; });
@@ -48,7 +48,7 @@ void Session::run(const std::function<bool()>& going_on) {
 
 void Session::attend(const Attention& attention) {
   const std::lock_guard lock(mutex_);
-  engine_.set_importance(importance_of(attention, options_.width, options_.height));
+  live::attend(engine_, attention);
   attention_ = attention;
 }
 
@@ -73,7 +73,8 @@ std::vector<std::string> Session::store() {
   const std::lock_guard lock(storing_);
   if (engine_.stats().waves == 0) throw std::runtime_error("there is no picture yet");
   const freqsynth::FrequencyImage image = engine_.finished_image();
-  write_text(options_.jpeg_file(), picture_jpeg(image, view()));
+  const std::vector<std::uint8_t> jpeg = picture_jpeg(image, view());
+  write_text(options_.jpeg_file(), {jpeg.begin(), jpeg.end()});
   write_picture(options_.exr_file(),
                 {options_.width, options_.height, 3, freqsynth::reconstruct(linear_light(image))});
   freqsynth::save_file(options_.state_file(), engine_);
@@ -102,13 +103,17 @@ void Session::update(const Sampling& sampling) {
 }
 
 void Session::publish(const Sampling& sampling, bool ended) {
+  // What the first errors take is not known: it is about four pictures' time.
+  const double expected = error_cost_ > 0 ? error_cost_ : 4 * picture_cost_;
+  const bool ends = ended && !last_.finished;
+  if (ends || (!ended && waves_ > 0 && error_pace_.affords(expected))) {
+    error_cost_ = error_pace_.spend([&] {
+      predicted_error_ = engine_.predicted_rmse();
+      errors_ = errors_of(engine_);
+    });
+  }
   picture_cost_ = picture_pace_.spend([&] { make_picture(sampling, ended); });
   picture_time_ = Clock::now();
-  // What the first one takes is not known: it takes about four pictures' time.
-  const double expected = error_cost_ > 0 ? error_cost_ : 4 * picture_cost_;
-  if (ended || error_pace_.affords(expected)) {
-    error_cost_ = error_pace_.spend([&] { make_error(); });
-  }
   board_.publish(last_);
 }
 
@@ -125,16 +130,18 @@ void Session::make_picture(const Sampling& sampling, bool ended) {
     last_.samples = stats.samples;
     last_.samples_per_pixel =
         static_cast<double>(stats.samples) / static_cast<double>(options_.width * options_.height);
-    last_.density = density_jpeg(image_, last_.most_samples);
+    const BlockMap samples = samples_of(image_);
+    const float most = *std::max_element(samples.values.begin(), samples.values.end());
+    last_.most_samples = static_cast<std::uint32_t>(most);
+    last_.density = map_jpeg(samples, std::max(double{most}, 1.0));
   }
   last_.seconds = sampling.seconds();
   last_.picture = picture_jpeg(image_, last_.view);
   last_.finished = ended;
-}
-
-void Session::make_error() {
-  last_.predicted_error = engine_.predicted_rmse() * double{exposure_factor(last_.view.stops)};
-  last_.error = error_jpeg(engine_, last_.view);
+  if (errors_.values.empty()) return;
+  const double factor = exposure_factor(last_.view.stops);
+  last_.predicted_error = predicted_error_ * factor;
+  last_.error = map_jpeg(errors_, white_error / factor);
 }
 
 }  // namespace live

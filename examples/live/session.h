@@ -13,6 +13,7 @@
 #include "attention.h"
 #include "board.h"
 #include "freqsynth/freqsynth.h"
+#include "maps.h"
 #include "options.h"
 #include "pace.h"
 #include "revision.h"
@@ -57,7 +58,6 @@ class Session {
   void update(const Sampling& sampling);
   void publish(const Sampling& sampling, bool ended);
   void make_picture(const Sampling& sampling, bool ended);
-  void make_error();
   [[nodiscard]] bool picture_due(const Sampling& sampling);
 
   const Options& options_;
@@ -78,6 +78,8 @@ class Session {
   Revision last_;
   freqsynth::FrequencyImage image_;
   std::uint64_t waves_ = 0;  // of image_
+  BlockMap errors_;          // no values: not yet known
+  double predicted_error_ = 0;
   Clock::time_point picture_time_;
   double picture_cost_ = 0, error_cost_ = 0;  // CPU seconds
 };

@@ -85,7 +85,8 @@ TEST_F(ServedSession, ShowsAPictureThatGrowsUntilItIsFinished) {
   Sampling sampling(engine, *subject, 8, 2);
   while (!sampling.ended()) std::this_thread::yield();
   sampling.stop();
-  EXPECT_EQ(http->Get("/picture.jpg")->body, picture_jpeg(engine.finished_image(), {}));
+  const std::vector<std::uint8_t> file = picture_jpeg(engine.finished_image(), {});
+  EXPECT_EQ(http->Get("/picture.jpg")->body, std::string(file.begin(), file.end()));
   EXPECT_EQ(picture("/density.jpg").width, 20u);
   EXPECT_EQ(picture("/error.jpg").height, 16u);
 }

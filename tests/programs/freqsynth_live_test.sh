@@ -11,6 +11,14 @@ rm -rf "$folder"
 mkdir -p "$folder"
 cd "$folder"
 
+# A reader can copy the glue: the documents say how long it is.
+root=$(cd "$(dirname "$script")/../.." && pwd)
+lines=$(wc -l <"$root/examples/live/glue.h")
+for document in README.md docs/live.md; do
+  tr '\n' ' ' <"$root/$document" | grep -q "live/glue.h\`, $lines lines" ||
+    fail "$document does not say that glue.h has $lines lines"
+done
+
 expect_failure 2 "--scene" --scene none
 expect_failure 2 "--size 43" --size 43
 expect_failure 2 "--spp 0" --spp 0
@@ -57,5 +65,11 @@ od -An -v -tx1 picture.jpg | tr -d ' \n' | grep -q "ffc2" || fail "picture.jpg i
 interrupt INT --resume picture.state -o resumed
 [[ -s resumed.exr ]] || fail "not resumed: $(cat said)"
 expect_failure 1 "picture.state" --size 65x48 --port 0 --resume picture.state
+
+# Figures.
+"$program" --size 128x128 --scene softshadow --spp 30 --measure 1 >said
+[[ $(wc -l <said) == 1 ]] || fail "--measure says $(cat said)"
+grep -qE "^\| softshadow \| 128 x 128 (\| [0-9.]+ (s |us |)){7}\|$" said ||
+  fail "--measure says $(cat said)"
 [[ -z $(find . -mindepth 1 -name '.*') ]] || fail "unfinished files are left"
 echo "freqsynth_live: all as expected"
