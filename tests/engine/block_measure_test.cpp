@@ -228,7 +228,7 @@ TEST(ResidualBook, KeepsTheNewestResidualsAndTheirMean) {
   EXPECT_EQ(book.mean(), 0);
   oracle::Random random(1);
   const auto check = [&](Block block) {
-    book.absorbed(image.view(), block);
+    book.note(block, plausible_residual(image.view(), block));
     Real sum = 0;
     for (Block b = 0; b < 9; ++b) {
       ASSERT_EQ(book.of(b), image.blocks.residual(b));
@@ -255,7 +255,8 @@ TEST(ResidualBook, PoolsAWeightedMeanOfVariances) {
     Image<ScriptedRefiner> image(x, y, ScriptedRefiner({1}));
     ResidualBook book(x * y);
     oracle::Random random(static_cast<unsigned>(x));
-    feed(image, 100, random, [&](Block block) { book.absorbed(image.view(), block); });
+    feed(image, 100, random,
+         [&](Block block) { book.note(block, plausible_residual(image.view(), block)); });
     std::vector<float> some(x * y);  // of whatever the caller pools
     for (float& value : some) value = static_cast<float>(random.uniform(0, 5));
     for (Block block = 0; block < x * y; ++block) {
@@ -286,7 +287,7 @@ TEST(ResidualBook, NewsAreResidualsThatHaveGrownByAQuarter) {
   ResidualBook book(2);
   const auto news_after = [&](float residual) {
     image.blocks.absorb(1, &residual);
-    book.absorbed(image.view(), 1);
+    book.note(1, plausible_residual(image.view(), 1));
     return book.has_news(1);
   };
   EXPECT_FALSE(book.has_news(1)) << "nothing there";
