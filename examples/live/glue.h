@@ -32,7 +32,7 @@ struct Sampler {
     subject.radiance(requests, rgb);
     for (std::size_t i = 0; i < requests.size(); ++i) {
       const auto sample = sample_of(std::span<const float, 3>(rgb.data() + 3 * i, 3));
-      std::copy(sample.begin(), sample.end(), values.begin() + i * channels);
+      std::copy(sample.begin(), sample.end(), values.data() + i * channels);
     }
   }
 };

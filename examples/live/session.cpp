@@ -19,6 +19,8 @@ using std::chrono::milliseconds;
 constexpr double picture_share = 0.035, error_share = 0.01;
 /// Between two revisions.
 constexpr milliseconds picture_interval{400};
+/// Between two looks whether one is due; before the first, and after it.
+constexpr milliseconds first_watch{10}, watch{50};
 /// The first one waits so long for a sample in each block.
 constexpr milliseconds first_patience{80};
 
@@ -40,7 +42,7 @@ void Session::run(const std::function<bool()>& going_on) {
     if (sampling.ended()) sampling.stop();  // says what went wrong
     update(sampling);
     std::unique_lock lock(mutex_);
-    asked_.wait_for(lock, milliseconds(10), [&] { return view_asked_; });
+    asked_.wait_for(lock, waves_ == 0 ? first_watch : watch, [&] { return view_asked_; });
   }
   sampling.stop();
   if (engine_.stats().waves > 0 && !last_.finished) publish(sampling, true);
@@ -82,13 +84,17 @@ std::vector<std::string> Session::store() {
 }
 
 bool Session::picture_due(const Sampling& sampling) {
+  if (waves_ > 0 &&
+      (Clock::now() - picture_time_ < picture_interval || !picture_pace_.affords(picture_cost_))) {
+    return false;
+  }
   const freqsynth::SynthesisStats stats = engine_.stats();
   if (stats.waves == waves_) return false;
   if (waves_ == 0) {
     return stats.samples >= stats.blocks ||
            sampling.seconds() >= std::chrono::duration<double>(first_patience).count();
   }
-  return Clock::now() - picture_time_ >= picture_interval && picture_pace_.affords(picture_cost_);
+  return true;
 }
 
 void Session::update(const Sampling& sampling) {

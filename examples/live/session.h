@@ -29,7 +29,8 @@ class Session {
   /// \throws std::runtime_error naming the file when it cannot go on from Options::resume.
   Session(const Options& options, const Subject& subject);
 
-  /// Samples and publishes until `going_on` returns false, which is asked a hundred times a second.
+  /// Samples and publishes until `going_on` returns false, which is asked at least twenty times a
+  /// second.
   /// \throws what the subject throws.
   void run(const std::function<bool()>& going_on);
 
