@@ -73,9 +73,9 @@ struct SynthesisSettings {
   std::vector<float> importance = {};
   /// The part of the width x height pixels that is made, in whole blocks; empty: all of it.
   /// Requests are those of the whole picture. For its borders' sake two blocks more on each side
-  /// are sampled, and not shown: where all blocks have their max_samples_per_block, the pixels are
-  /// those of the whole picture to the bit. `importance` is that of the whole picture; stop rules
-  /// and `wave` are of what is sampled.
+  /// are sampled, and not shown: where all blocks have their max_samples_per_block, and there is no
+  /// noise to smooth, which looks farther, the pixels are those of the whole picture to the bit.
+  /// `importance` is that of the whole picture; stop rules and `wave` are of what is sampled.
   PixelWindow window = {};
   /// When set, blocks are chosen by what their errors may change after quantisation, and the
   /// synthesis ends by itself when no block is above the target's tolerance.

@@ -163,8 +163,9 @@ FREQSYNTH_INLINE void smooth_noise_on(NoisyPicture& picture, std::span<const std
   };
   constexpr Pass passes[] = {{3, 0.3}, {0.3, 0.3}};
   constexpr double last_border = 0.03;
-  // A step that is left in a feature is drawn into all channels.
-  constexpr double feature_border = 10;
+  // A step that is left in a feature is drawn into all channels. A guide may have none; what is
+  // shown of a feature keeps closer to its samples.
+  constexpr double feature_border = 1, guide_border = 10;
   const auto close_all = [&](std::size_t channel, double variance) {
     close_borders(picture, picture.sums[channel], variance, picture.pixels[channel], executor);
   };
@@ -182,7 +183,12 @@ FREQSYNTH_INLINE void smooth_noise_on(NoisyPicture& picture, std::span<const std
 
   std::vector<const float*> sums;
   for (const std::size_t channel : channels) sums.push_back(picture.sums[channel].data());
-  for (const std::size_t channel : features) close_all(channel, feature_border);
+  std::vector<NoisyPicture::Plane> shown;
+  for (const std::size_t channel : features) {
+    close_all(channel, feature_border);
+    shown.push_back(picture.pixels[channel]);
+    close_all(channel, guide_border);
+  }
   std::vector<FeatureSamples> feature_samples;
   std::vector<GuidedRegression::Guide> guides =
       feature_guides(picture, features, feature_samples, executor);
@@ -192,9 +198,9 @@ FREQSYNTH_INLINE void smooth_noise_on(NoisyPicture& picture, std::span<const std
   for (const Pass& pass : passes) {
     for (std::size_t t = 0; t < channels.size(); ++t) {
       close_all(channels[t], pass.border);
-      pilots[t] = picture.pixels[channels[t]];
       // A fit that knows of a peak follows it; the samples still have its light, which is spread.
-      if (first) pilots[t] = LonePeaks(picture, channels[t]).removed(executor);
+      pilots[t] =
+          first ? LonePeaks(picture, channels[t]).removed(executor) : picture.pixels[channels[t]];
       const float* pilot = pilots[t].data();
       guides.push_back({pilot, pilot, 0, pass.ridge, first ? variances[t].data() : nullptr, t});
     }
@@ -214,6 +220,9 @@ FREQSYNTH_INLINE void smooth_noise_on(NoisyPicture& picture, std::span<const std
   for (const std::size_t channel : channels) {
     pool_levels(picture, picture.sums[channel], picture.pixels[channel], executor);
     close_all(channel, last_border);
+  }
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    picture.pixels[features[i]] = std::move(shown[i]);
   }
 }
 
