@@ -23,7 +23,7 @@ void Engine<R, M>::end_of_delivery(std::unique_lock<std::mutex>& lock,
   if (!units_.fit(wave_.values())) change_units();
   for (std::size_t i = 0; i < wave_.samples(); ++i) note(i);
   take_known();
-  const bool helped = executor.concurrency() > 1 || room_.occupied();
+  const bool helped = !executor.is_serial() || room_.occupied();
   if (!helped || plan_.size() < least_shared || !choice_.apart()) {
     absorb_all();
     finish_wave();
@@ -45,7 +45,7 @@ void Engine<R, M>::work_together(const detail::ExecutorRef& executor) {
   const auto help = [this](std::size_t) { team_.help(); };
   do {
     const std::size_t pieces = team_.left();
-    if (pieces <= 1 || error || executor.concurrency() <= 1) continue;
+    if (pieces <= 1 || error || executor.is_serial()) continue;
     try {
       executor.execute(pieces, TaskRef(help));
     }

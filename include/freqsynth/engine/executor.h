@@ -74,6 +74,8 @@ class ExecutorRef {
 
   void execute(std::size_t count, TaskRef task) const { execute_(executor_, count, task); }
   [[nodiscard]] std::size_t concurrency() const { return concurrency_(executor_); }
+  /// Whether it stands for the calling thread, with no executor of a host's.
+  [[nodiscard]] bool is_serial() const { return executor_ == nullptr; }
 
  private:
   void* executor_;

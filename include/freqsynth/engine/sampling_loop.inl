@@ -186,6 +186,8 @@ RunReport run_loop(E& engine, std::size_t channels, const SamplerRef& sampler, c
   const std::size_t most_parts =
       concurrency <= 1 ? 1 : std::min(most, 4 * std::min(concurrency, most));
   Batch<E> requests(engine, stride, most, most_parts, concurrency, engine.packet());
+  // An executor is asked once how much it does at a time: it may throw.
+  const ExecutorRef helper = concurrency > 1 ? executor : ExecutorRef();
   bool told = false;  // that it has come to its end
   while (const std::size_t parts = requests.fill()) {
     const auto task = [&](std::size_t index) { requests.answer(sampler, index); };
@@ -193,7 +195,7 @@ RunReport run_loop(E& engine, std::size_t channels, const SamplerRef& sampler, c
     executor.execute(parts, TaskRef(task));
     sampling += Clock::now() - sampling_begin;
     const std::size_t left_out = requests.left_out();
-    if (const std::exception_ptr error = requests.settle(executor)) std::rethrow_exception(error);
+    if (const std::exception_ptr error = requests.settle(helper)) std::rethrow_exception(error);
     if (left_out > 0) {
       throw std::runtime_error("freqsynth: the executor left out " + std::to_string(left_out) +
                                " of " + std::to_string(parts) + " tasks");
