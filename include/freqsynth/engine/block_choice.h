@@ -24,8 +24,8 @@ namespace freqsynth {
 struct Revision {
   /// One of these.
   struct Beside {
-    std::uint32_t block;
-    float priority;
+    std::uint32_t block;  ///< its index
+    float priority;       ///< what is expected of one more sample there
   };
   float priority = 0;            ///< of the block itself
   std::uint32_t count = 0;       ///< of those beside it

@@ -21,8 +21,8 @@ class SplitRule {
 
  protected:
   SplitRule() = default;
-  SplitRule(const SplitRule&) = default;
-  SplitRule& operator=(const SplitRule&) = default;
+  SplitRule(const SplitRule&) = default;             ///< only as a part of a rule that is copied
+  SplitRule& operator=(const SplitRule&) = default;  ///< only as a part of a rule that is copied
 };
 
 }  // namespace freqsynth
