@@ -22,6 +22,8 @@ TreeSettings settings_of(std::size_t width, std::size_t height) {
   return settings;
 }
 
+SerialExecutor serial;
+
 float spot(double x, double y) { return std::hypot(x - 5.3, y - 6.1) < 2 ? 1.0f : 0.0f; }
 
 TEST(NodePixels, AreMadeOfPartsByArea) {
@@ -32,7 +34,7 @@ TEST(NodePixels, AreMadeOfPartsByArea) {
     const auto ones = [](std::uint32_t, std::size_t, std::span<float> parts) {
       for (float& part : parts) part = 1;
     };
-    for (const float pixel : node_pixels(tree, ones)) ASSERT_NEAR(pixel, 1, 1e-6);
+    for (const float pixel : node_pixels(tree, serial, ones)) ASSERT_NEAR(pixel, 1, 1e-6);
     // The averages of x are those of pixels where these are made of whole parts.
     const auto means_of_x = [&](std::uint32_t leaf, std::size_t, std::span<float> parts) {
       const TreeNode& node = tree.node(leaf);
@@ -45,7 +47,7 @@ TEST(NodePixels, AreMadeOfPartsByArea) {
                                       edge * (node.column + at));
       }
     };
-    const std::vector<float> pixels = node_pixels(tree, means_of_x);
+    const std::vector<float> pixels = node_pixels(tree, serial, means_of_x);
     double sum = 0;
     for (std::size_t i = 0; i < pixels.size(); ++i) {
       sum += double{pixels[i]};

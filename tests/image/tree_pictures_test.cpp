@@ -8,7 +8,10 @@
 #include <cstddef>
 #include <vector>
 
+#include "freqsynth/engine/thread_pool.h"
 #include "freqsynth/engine/tree_sampler.h"
+#include "freqsynth/image/node_pixels.h"
+#include "freqsynth/image/reconstructor.h"
 
 namespace freqsynth {
 namespace {
@@ -35,7 +38,7 @@ TEST(TreePictures, AreWhatTheEstimatorMakesOfEachLeaf) {
   TreeSampler sampler(settings);
   sampler.run(scene, 1500);
   const NodeTree& tree = sampler.tree();
-  TreePictures pictures(tree.positions(), small_bank());
+  TreePictures pictures(tree.positions(), {.bank = small_bank(), .ring = false, .blend = 0});
   const std::vector<float> pixels = pictures.pixels(tree);
   ASSERT_EQ(pixels.size(), 19u * 16 * 2);
   EXPECT_GT(pictures.memory(), 0u);
@@ -62,7 +65,8 @@ TEST(TreePictures, AreWhatTheEstimatorMakesOfEachLeaf) {
     BankEstimator(lists, 2).estimate(std::span(&one, 1));
     std::copy_n(averages.data() + channel * side * side, side * side, parts.begin());
   };
-  EXPECT_EQ(pixels, node_pixels(tree, alone));
+  SerialExecutor serial;
+  EXPECT_EQ(pixels, node_pixels(tree, serial, alone));
   // And it is a picture of the scene.
   double squares = 0;
   for (std::size_t y = 0; y < 16; ++y) {
@@ -77,6 +81,45 @@ TEST(TreePictures, AreWhatTheEstimatorMakesOfEachLeaf) {
     }
   }
   EXPECT_LT(std::sqrt(squares / (19 * 16)), 0.02);
+}
+
+TreeSettings settings_of(std::size_t width, std::size_t height) {
+  TreeSettings settings;
+  settings.width = width;
+  settings.height = height;
+  settings.weights = {1, 1};
+  settings.wave = 16;
+  return settings;
+}
+
+TEST(TreePictures, AreTheSameForAnyExecutorAndWhateverWasMadeBefore) {
+  TreeSampler sampler(settings_of(75, 50));
+  ThreadPool pool(3);
+  TreePictures kept(sampler.tree().positions(), small_bank());
+  for (const std::uint64_t samples : {300u, 700u, 701u, 2000u, 6000u, 12000u}) {
+    sampler.run(scene, samples);
+    const NodeTree& tree = sampler.tree();
+    TreePictures fresh(tree.positions(), small_bank());
+    const std::vector<float> pixels = fresh.pixels(tree), errors = fresh.errors(tree);
+    ASSERT_EQ(kept.pixels(tree, pool), pixels) << samples;
+    ASSERT_EQ(kept.errors(tree, pool), errors) << samples;
+    ASSERT_EQ(kept.pixels(tree), pixels) << samples;
+    SerialExecutor serial;
+    ASSERT_EQ(rough_pixels(tree, pool), rough_pixels(tree, serial)) << samples;
+  }
+}
+
+TEST(TreePictures, AreAFrequencyImageWithTheSamePixels) {
+  TreeSampler sampler(settings_of(37, 20));
+  sampler.run(scene, 1500);
+  TreePictures pictures(sampler.tree().positions(), small_bank());
+  SerialExecutor serial;
+  const std::vector<float> pixels = pictures.pixels(sampler.tree());
+  const FrequencyImage image = pictures.image(sampler.tree(), serial);
+  EXPECT_EQ(image.meaning(), CoefficientMeaning::pixel_average);
+  const std::vector<float> back = reconstruct(image);
+  ASSERT_EQ(back.size(), pixels.size());
+  for (std::size_t i = 0; i < pixels.size(); ++i) ASSERT_NEAR(back[i], pixels[i], 1e-5) << i;
 }
 
 }  // namespace

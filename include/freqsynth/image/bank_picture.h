@@ -10,6 +10,7 @@
 
 #include "freqsynth/basis/config.h"
 #include "freqsynth/image/pixel_view.h"
+#include "freqsynth/image/ring_samples.h"
 #include "freqsynth/refine/bank_estimator.h"
 #include "freqsynth/refine/prior_bank.h"
 
@@ -58,20 +59,12 @@ class FREQSYNTH_API BankPictures {
 
  private:
   struct Work;
-  /// A sample of a block around.
-  struct RingSample {
-    int right, down;    // of the block
-    std::size_t index;  // of its sample
-  };
   /// What samples a block's estimate is made from.
   struct Kind {
     std::size_t level;  // samples of the blocks around that lie in the ring; 0: none
-    std::vector<RingSample> ring;
+    std::vector<detail::RingSample> ring;
     std::unique_ptr<const BankLists> lists;
   };
-
-  [[nodiscard]] static std::vector<RingSample> ring_of(std::span<const UnitPoint> positions,
-                                                       std::size_t level, double reach);
 
   BankPictureSettings settings_;
   std::vector<Kind> kinds_;

@@ -14,35 +14,6 @@
 #include "freqsynth/image/bank_picture.h"
 
 namespace freqsynth {
-namespace detail {
-
-/// How far outside the unit interval.
-inline double outside(double place) { return place < 0 ? -place : place > 1 ? place - 1 : 0; }
-
-}  // namespace detail
-
-FREQSYNTH_INLINE std::vector<BankPictures::RingSample> BankPictures::ring_of(
-    std::span<const UnitPoint> positions, std::size_t level, double reach) {
-  std::vector<RingSample> ring;
-  std::vector<UnitPoint> known;
-  for (std::size_t index = 0; index < level; ++index) {
-    for (int down = -1; down <= 1; ++down) {
-      for (int right = -1; right <= 1; ++right) {
-        const UnitPoint at{positions[index].s + right, positions[index].t + down};
-        const double distance = std::max(detail::outside(at.s), detail::outside(at.t));
-        // Those on the block's own border are its own.
-        if (!(distance > 0 && distance <= reach + 1e-9)) continue;
-        const bool twice = std::any_of(known.begin(), known.end(), [&](const UnitPoint& other) {
-          return at.s == other.s && at.t == other.t;
-        });
-        if (twice) continue;
-        known.push_back(at);
-        ring.push_back({right, down, index});
-      }
-    }
-  }
-  return ring;
-}
 
 FREQSYNTH_INLINE BankPictures::BankPictures(std::span<const UnitPoint> positions,
                                             const BankPictureSettings& settings)
@@ -52,22 +23,15 @@ FREQSYNTH_INLINE BankPictures::BankPictures(std::span<const UnitPoint> positions
   detail::require(settings.blend <= block_size / 2, "blend", static_cast<double>(settings.blend),
                   "in 0..4");
   const AverageGrid grid = AverageGrid::with_margin(block_size, settings.blend);
-  const auto add = [&](std::size_t level, std::vector<RingSample> ring) {
-    std::vector<UnitPoint> all;
-    for (const RingSample& sample : ring) {
-      const UnitPoint at = positions[sample.index];
-      all.push_back({at.s + sample.right, at.t + sample.down});
-    }
-    all.insert(all.end(), positions.begin(), positions.end());
+  const auto add = [&](std::size_t level, std::vector<detail::RingSample> ring) {
+    const std::vector<UnitPoint> all = detail::with_ring(ring, positions);
     kinds_.push_back(
         {level, std::move(ring), std::make_unique<const BankLists>(settings.bank, all, grid)});
   };
   add(0, {});
-  constexpr std::size_t ring_levels[] = {25, 81, 289};
-  double reach = 0.5;
-  for (const std::size_t level : ring_levels) {
-    if (settings.ring && level <= positions.size()) add(level, ring_of(positions, level, reach));
-    reach /= 2;
+  for (const detail::RingReach& which : detail::ring_reaches) {
+    if (!settings.ring || which.level > positions.size()) continue;
+    add(which.level, detail::ring_samples(positions, which));
   }
 }
 
@@ -173,7 +137,7 @@ FREQSYNTH_INLINE void BankPictures::Work::estimate_rows(std::size_t first, std::
       node.averages = averages.data() + i * room;
       node.squared_errors = squared_errors.data() + i * side * side;
       node.doubts = doubts.data() + i * side * side;
-      for (const RingSample& sample : kind.ring) {
+      for (const detail::RingSample& sample : kind.ring) {
         const std::size_t column = x + static_cast<std::size_t>(sample.right);
         const std::size_t row = y + static_cast<std::size_t>(sample.down);
         const float* values = blocks[row * columns + column].values + sample.index * channels;

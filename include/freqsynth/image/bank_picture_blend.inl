@@ -11,17 +11,6 @@
 #include "freqsynth/basis/rounding.h"
 
 namespace freqsynth {
-namespace detail {
-
-/// The share of a block in a pixel, along one axis, whose centre lies `inside` pixels from a border
-/// that it shares: 0 and 1 where no blending is.
-inline float blend_share(double inside, std::size_t blend) {
-  if (blend == 0) return inside > 0 ? 1 : 0;
-  const double share = 0.5 + inside / (2 * static_cast<double>(blend));
-  return static_cast<float>(std::clamp(share, 0.0, 1.0));
-}
-
-}  // namespace detail
 
 /// What share a block has in the pixels that it and its margins cover, along one axis. Beside a
 /// narrow block, and at the picture's border, nothing is blended.

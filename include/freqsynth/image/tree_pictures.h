@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -13,122 +14,138 @@
 
 #include "freqsynth/basis/config.h"
 #include "freqsynth/basis/node_positions.h"
+#include "freqsynth/engine/executor.h"
 #include "freqsynth/engine/node_tree.h"
-#include "freqsynth/image/node_pixels.h"
+#include "freqsynth/image/bank_picture.h"
+#include "freqsynth/image/frequency_image.h"
+#include "freqsynth/image/leaf_picture.h"
+#include "freqsynth/image/tree_ring.h"
 #include "freqsynth/refine/bank_estimator.h"
 #include "freqsynth/refine/prior_bank.h"
 
 namespace freqsynth {
 
-/// Makes pictures of trees. Its lists, one for each prior and class of nodes, are built when they
-/// are needed, and stay for the next picture.
+/// Makes pictures of a tree while it grows, or of several.
 ///
-/// Each leaf is estimated from its own samples: those around have no part in it.
+/// Each leaf is estimated from its own samples and, where it is a block whose eight neighbours have
+/// had enough, from those of a ring around (BankPictureSettings::ring). An estimate goes on
+/// beyond its leaf: near the border of two leaves both sides' are blended.
+///
+/// What leaves are estimated to be is kept: a leaf is estimated again when a sample has changed
+/// that it depends on, so that a picture of a tree that has grown a little is made soon. So are the
+/// lists, one for each prior and class of nodes, which are built when they are needed.
+///
+/// Results do not depend on the executor, nor on what was made before. Not for several threads at
+/// once.
 class TreePictures {
  public:
   /// \param positions  of the trees' nodes; must live as long as this
-  explicit TreePictures(const NodePositions& positions, PriorBank bank = PriorBank::exact(),
-                        const BankSettings& weights = {})
-      : positions_(&positions), bank_(std::move(bank)), weights_(weights) {
-    lists_.resize(positions.classes());
+  /// \throws std::invalid_argument naming the setting that is out of range.
+  explicit TreePictures(const NodePositions& positions, const BankPictureSettings& settings = {});
+  /// With a bank, and otherwise as usual.
+  TreePictures(const NodePositions& positions, PriorBank bank);
+
+  /// The pixels of a tree with these positions, channels interleaved, row by row. Leaves that wait,
+  /// or have had no sample, show the mean of what they know.
+  /// \param executor  of estimates, and of rows of blocks
+  /// \throws std::bad_alloc.
+  template <Executor E>
+  [[nodiscard]] std::vector<float> pixels(const NodeTree& tree, E& executor) {
+    update(tree, detail::ExecutorRef(executor));
+    return blended(tree, detail::ExecutorRef(executor));
+  }
+  /// The same on this thread.
+  [[nodiscard]] std::vector<float> pixels(const NodeTree& tree) {
+    SerialExecutor serial;
+    return pixels(tree, serial);
   }
 
-  /// The pixels of a tree with these positions, see node_pixels(). Leaves that wait, or have had no
-  /// sample, show the mean of what they know. \throws std::bad_alloc.
-  [[nodiscard]] std::vector<float> pixels(const NodeTree& tree);
-
-  /// Bytes that the lists built so far take.
-  [[nodiscard]] std::size_t memory() const {
-    std::size_t bytes = 0;
-    for (const auto& lists : lists_) bytes += lists != nullptr ? lists->memory() : 0;
-    return bytes;
+  /// The expected squared error of each of these pixels, its mean over the channels, row by row: of
+  /// the leaf that a pixel belongs to, before it is blended. The root of the mean of all is the
+  /// error to expect of the picture. Of a leaf that waits, how far what it knows is apart.
+  /// \throws std::bad_alloc.
+  template <Executor E>
+  [[nodiscard]] std::vector<float> errors(const NodeTree& tree, E& executor) {
+    update(tree, detail::ExecutorRef(executor));
+    return squared_errors(tree, detail::ExecutorRef(executor));
   }
+  /// The same on this thread.
+  [[nodiscard]] std::vector<float> errors(const NodeTree& tree) {
+    SerialExecutor serial;
+    return errors(tree, serial);
+  }
+
+  /// The pixels as a frequency image (CoefficientMeaning::pixel_average).
+  /// \throws std::bad_alloc.
+  template <Executor E>
+  [[nodiscard]] FrequencyImage image(const NodeTree& tree, E& executor) {
+    return image_of(tree, pixels(tree, executor));
+  }
+
+  /// Bytes that the lists built so far, and the estimates, take.
+  [[nodiscard]] std::size_t memory() const;
 
  private:
-  [[nodiscard]] const BankLists& lists(std::size_t of);
-  void estimate(const NodeTree& tree, std::size_t of, std::span<const std::uint32_t> leaves);
-  [[nodiscard]] std::span<float> averages(const NodeTree& tree, std::uint32_t leaf) {
-    const std::size_t side = positions_->pixels(tree.node(leaf).of);
-    return std::span(averages_).subspan(places_[leaf], side * side * tree.channels());
+  /// What is known of a leaf.
+  struct Estimate {
+    std::uint64_t key = 0;   // of all that it was made from; 0: it must be made
+    std::uint32_t slot = 0;  // in the room of its size
+    std::uint8_t size = 0;   // 1 + number of that room; 0: it has none
+  };
+  /// Room for the estimates of leaves of a size: averages of each channel, squared errors, doubts.
+  struct Room {
+    std::vector<float> numbers;
+    std::vector<std::uint32_t> free;
+    std::uint32_t slots = 0;
+  };
+  /// Leaves that are estimated together.
+  struct Batch {
+    std::size_t list;
+    std::span<const std::uint32_t> leaves;
+  };
+
+  /// Pixels around a leaf that it is blended into.
+  [[nodiscard]] std::size_t margin_of(std::size_t side) const {
+    return std::min(settings_.blend, side / 2);
   }
+  [[nodiscard]] static std::size_t room_of(std::size_t side) {
+    return side == 8 ? 3 : side == 4 ? 2 : side == 2 ? 1 : 0;
+  }
+  [[nodiscard]] std::size_t count_of(std::size_t side) const {
+    const std::size_t line = side + 2 * margin_of(side);
+    return line * line;
+  }
+  [[nodiscard]] static bool estimated(const NodeTree& tree, std::uint32_t leaf) {
+    return tree.node(leaf).samples > 0 && !tree.waits(leaf);
+  }
+  [[nodiscard]] float* slot_of(const NodeTree& tree, std::uint32_t leaf);
+  [[nodiscard]] detail::LeafNumbers numbers_of(const NodeTree& tree, std::uint32_t leaf,
+                                               std::vector<float>& scratch);
+
+  void update(const NodeTree& tree, const detail::ExecutorRef& executor);
+  [[nodiscard]] std::size_t list_of(const NodeTree& tree, std::uint32_t leaf) const;
+  void gather(const NodeTree& tree, std::uint32_t leaf, std::size_t list,
+              std::vector<float>& values) const;
+  void give_slots(const NodeTree& tree, std::span<const std::uint32_t> leaves);
+  void make_lists(std::size_t list);
+  void estimate(const NodeTree& tree, const Batch& batch);
+  [[nodiscard]] std::vector<float> blended(const NodeTree& tree,
+                                           const detail::ExecutorRef& executor);
+  [[nodiscard]] std::vector<float> squared_errors(const NodeTree& tree,
+                                                  const detail::ExecutorRef& executor);
+  [[nodiscard]] static FrequencyImage image_of(const NodeTree& tree,
+                                               const std::vector<float>& pixels);
 
   const NodePositions* positions_;
-  PriorBank bank_;
-  BankSettings weights_;
-  std::vector<std::unique_ptr<BankLists>> lists_;  // of each class
-  // Of one picture: the averages of all leaves, channel by channel, and where those of each begin.
-  std::vector<float> averages_;
-  std::vector<std::size_t> places_;
-  std::vector<float> values_;
+  BankPictureSettings settings_;
+  detail::TreeRings rings_;
+  // Of each class of nodes without a ring, then of blocks with each ring.
+  std::vector<std::unique_ptr<BankLists>> lists_;
+  std::vector<Estimate> estimates_;  // of each node
+  std::array<Room, 4> rooms_;        // of leaves of 1, 2, 4 and 8 pixels
+  std::size_t channels_ = 0;
 };
 
-// ------------------------------------------------------------------------------------ definitions
-
-inline const BankLists& TreePictures::lists(std::size_t of) {
-  if (lists_[of] == nullptr) {
-    std::vector<UnitPoint> points(NodePositions::size);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      points[i] = {positions_->s(of, i), positions_->t(of, i)};
-    }
-    lists_[of] =
-        std::make_unique<BankLists>(bank_, points, AverageGrid::of_node(positions_->pixels(of)));
-  }
-  return *lists_[of];
-}
-
-inline void TreePictures::estimate(const NodeTree& tree, std::size_t of,
-                                   std::span<const std::uint32_t> leaves) {
-  constexpr std::size_t together = 128;
-  BankEstimator estimator(lists(of), tree.channels(), weights_);
-  std::vector<BankNode> nodes;
-  for (std::size_t first = 0; first < leaves.size(); first += together) {
-    const auto some = leaves.subspan(first, std::min(together, leaves.size() - first));
-    std::size_t size = 0;
-    for (const std::uint32_t leaf : some) size += tree.node(leaf).samples * tree.channels();
-    values_.resize(size);
-    nodes.clear();
-    float* next = values_.data();
-    for (const std::uint32_t leaf : some) {
-      BankNode node;
-      node.values = next;
-      node.count = tree.node(leaf).samples;
-      node.averages = averages(tree, leaf).data();
-      for (std::size_t c = 0; c < tree.channels(); ++c) {
-        const std::span<const float> values = tree.values(leaf, c);
-        for (std::size_t i = 0; i < values.size(); ++i) next[i * tree.channels() + c] = values[i];
-      }
-      next += node.count * tree.channels();
-      nodes.push_back(node);
-    }
-    estimator.estimate(nodes);
-  }
-}
-
-inline std::vector<float> TreePictures::pixels(const NodeTree& tree) {
-  FREQSYNTH_ASSERT(&tree.positions() == positions_);
-  std::vector<std::vector<std::uint32_t>> leaves(positions_->classes());
-  places_.assign(tree.size(), 0);
-  std::size_t size = 0;
-  for (std::uint32_t number = 0; number < tree.size(); ++number) {
-    const TreeNode& node = tree.node(number);
-    if (!node.leaf() || node.samples == 0 || tree.waits(number)) continue;
-    leaves[node.of].push_back(number);
-    places_[number] = size;
-    size += positions_->pixels(node.of) * positions_->pixels(node.of) * tree.channels();
-  }
-  averages_.resize(size);
-  for (std::size_t of = 0; of < leaves.size(); ++of) {
-    if (!leaves[of].empty()) estimate(tree, of, leaves[of]);
-  }
-  return node_pixels(tree, [&](std::uint32_t leaf, std::size_t channel, std::span<float> parts) {
-    if (tree.node(leaf).samples == 0 || tree.waits(leaf)) {
-      std::fill(parts.begin(), parts.end(), tree.known_mean(leaf, channel));
-      return;
-    }
-    const std::span<const float> own = averages(tree, leaf);
-    std::copy_n(own.begin() + static_cast<std::ptrdiff_t>(channel * parts.size()), parts.size(),
-                parts.begin());
-  });
-}
-
 }  // namespace freqsynth
+
+#include "freqsynth/image/tree_pictures.inl"
