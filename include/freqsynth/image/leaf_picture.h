@@ -57,7 +57,6 @@ class LeafPicture {
   LeafPicture(const NodeTree& tree, std::size_t row, std::size_t channels)
       : tree_(tree),
         grid_(tree.grid()),
-        row_(row),
         channels_(channels),
         top_(row * block_size),
         height_(block_length(row, grid_.height)),
@@ -91,7 +90,7 @@ class LeafPicture {
 
   const NodeTree& tree_;
   const BlockGrid& grid_;
-  std::size_t row_, channels_, top_, height_;
+  std::size_t channels_, top_, height_;
   std::vector<double> sums_, weights_;
   std::vector<std::uint8_t> margins_;  // of the leaf that each pixel belongs to
 };

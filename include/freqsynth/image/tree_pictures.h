@@ -104,9 +104,10 @@ class TreePictures {
     std::span<const std::uint32_t> leaves;
   };
 
-  /// Pixels around a leaf that it is blended into.
+  /// Pixels around a leaf that it is blended into: fewer around a smaller one, whose samples are
+  /// nearer to each other.
   [[nodiscard]] std::size_t margin_of(std::size_t side) const {
-    return std::min(settings_.blend, side / 2);
+    return settings_.blend * side / block_size;
   }
   [[nodiscard]] static std::size_t room_of(std::size_t side) {
     return side == 8 ? 3 : side == 4 ? 2 : side == 2 ? 1 : 0;
@@ -127,7 +128,9 @@ class TreePictures {
   void gather(const NodeTree& tree, std::uint32_t leaf, std::size_t list,
               std::vector<float>& values) const;
   void give_slots(const NodeTree& tree, std::span<const std::uint32_t> leaves);
-  void make_lists(std::size_t list);
+  void grow_lists(const NodeTree& tree, std::span<const std::vector<std::uint32_t>> leaves,
+                  const detail::ExecutorRef& executor);
+  [[nodiscard]] std::unique_ptr<BankLists> make_lists(std::size_t list) const;
   void estimate(const NodeTree& tree, const Batch& batch);
   [[nodiscard]] std::vector<float> blended(const NodeTree& tree,
                                            const detail::ExecutorRef& executor);

@@ -99,10 +99,17 @@ inline void TreePictures::update(const NodeTree& tree, const detail::ExecutorRef
     estimates_[leaf].key = 0;
     if (wanted[leaf].key != 0) changed[wanted[leaf].list].push_back(leaf);
   }
+  // Those with the most samples first: lists grow once, and leaves that are estimated together have
+  // about as many.
+  for (auto& leaves : changed) {
+    std::stable_sort(leaves.begin(), leaves.end(), [&](std::uint32_t a, std::uint32_t b) {
+      return tree.node(a).samples > tree.node(b).samples;
+    });
+  }
+  grow_lists(tree, changed, executor);
   std::vector<Batch> batches;
   for (std::size_t list = 0; list < changed.size(); ++list) {
     if (changed[list].empty()) continue;
-    make_lists(list);
     give_slots(tree, changed[list]);
     constexpr std::size_t most = 128;
     const std::span<const std::uint32_t> all(changed[list]);
@@ -117,20 +124,46 @@ inline void TreePictures::update(const NodeTree& tree, const detail::ExecutorRef
   }
 }
 
-inline void TreePictures::make_lists(std::size_t list) {
-  if (lists_[list] != nullptr) return;
-  const std::size_t of = list < positions_->classes() ? list : 0;
-  std::vector<UnitPoint> points;
-  if (list < positions_->classes()) {
-    for (std::size_t i = 0; i < NodePositions::size; ++i) {
-      points.push_back({positions_->s(of, i), positions_->t(of, i)});
+/// Makes lists, with as many rows as some leaves need. Those of each list have the one with the
+/// most samples first.
+inline void TreePictures::grow_lists(const NodeTree& tree,
+                                     std::span<const std::vector<std::uint32_t>> leaves,
+                                     const detail::ExecutorRef& executor) {
+  struct Growth {
+    const InnovationList* list;
+    std::size_t rows;
+  };
+  std::vector<Growth> growths;
+  for (std::size_t list = 0; list < leaves.size(); ++list) {
+    if (leaves[list].empty()) continue;
+    if (lists_[list] == nullptr) lists_[list] = make_lists(list);
+    const BankLists& all = *lists_[list];
+    // Up to the end of a level: most nodes that go beyond one come to the end of the next, and a
+    // list that grows often costs as often.
+    const std::size_t samples = tree.node(leaves[list].front()).samples;
+    std::size_t level = 25;
+    for (const std::size_t next : {std::size_t{81}, std::size_t{289}, NodePositions::size}) {
+      if (level < samples) level = next;
     }
-  } else {
-    points = rings_.positions(list - positions_->classes() + 1);
+    const std::size_t rows = all.max_samples() - NodePositions::size + level;
+    for (std::size_t member = 0; member < all.size(); ++member) {
+      if (all[member].size() < rows) growths.push_back({&all[member], rows});
+    }
   }
-  const std::size_t side = positions_->pixels(of);
-  lists_[list] = std::make_unique<BankLists>(settings_.bank, points,
-                                             AverageGrid::with_margin(side, margin_of(side)));
+  detail::execute_all(executor, growths.size(),
+                      [&](std::size_t task) { growths[task].list->reserve(growths[task].rows); });
+}
+
+inline std::unique_ptr<BankLists> TreePictures::make_lists(std::size_t list) const {
+  const bool ring = list >= positions_->classes();
+  const std::size_t of = ring ? 0 : list, side = positions_->pixels(of);
+  std::vector<UnitPoint> points;
+  for (std::size_t i = 0; !ring && i < NodePositions::size; ++i) {
+    points.push_back({positions_->s(of, i), positions_->t(of, i)});
+  }
+  if (ring) points = rings_.positions(list - positions_->classes() + 1);
+  return std::make_unique<BankLists>(settings_.bank, points,
+                                     AverageGrid::with_margin(side, margin_of(side)));
 }
 
 /// Gives slots to leaves that have none of their size, and takes those of nodes that are split.
