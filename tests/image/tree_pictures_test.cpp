@@ -21,6 +21,8 @@ std::array<float, 2> scene(double x, double y) {
   return {edge, static_cast<float>(0.2 * std::sin(0.3 * x) + 0.1 * y)};
 }
 
+float plane(double x, double y) { return static_cast<float>(0.01 * x - 0.03 * y); }
+
 /// A small bank, so that its lists are built soon.
 PriorBank small_bank() {
   PriorBank bank;
@@ -106,6 +108,83 @@ TEST(TreePictures, AreTheSameForAnyExecutorAndWhateverWasMadeBefore) {
     ASSERT_EQ(kept.pixels(tree), pixels) << samples;
     SerialExecutor serial;
     ASSERT_EQ(rough_pixels(tree, pool), rough_pixels(tree, serial)) << samples;
+  }
+}
+
+TEST(TreePictures, AConstantStaysOneAndAPlaneIsOne) {
+  TreeSampler sampler(settings_of(72, 40));
+  sampler.run([](double x, double y) { return std::array<float, 2>{0.7f, plane(x, y)}; }, 2880);
+  TreePictures pictures(sampler.tree().positions());
+  const std::vector<float> pixels = pictures.pixels(sampler.tree());
+  for (std::size_t i = 0; i < 72 * 40; ++i) {
+    ASSERT_FLOAT_EQ(pixels[2 * i], 0.7f);
+    const double x = static_cast<double>(i % 72) + 0.5, y = static_cast<double>(i / 72) + 0.5;
+    ASSERT_NEAR(pixels[2 * i + 1], plane(x, y), 1e-4) << i;
+  }
+}
+
+/// Of a grain that no leaf can follow: the mean step across borders of blocks, over that within.
+double step_at_borders(const BankPictureSettings& settings) {
+  TreeSettings whole = settings_of(96, 96);
+  whole.depth = 0;
+  TreeSampler sampler(whole);
+  const auto grain = [](double x, double y) {
+    const double value = std::sin(311 * x + 97 * y) * 43758.5453;
+    return std::array<float, 2>{static_cast<float>(value - std::floor(value)), 0};
+  };
+  sampler.run(grain, 96 * 96 / 2);
+  TreePictures pictures(sampler.tree().positions(), settings);
+  const std::vector<float> pixels = pictures.pixels(sampler.tree());
+  double sums[2] = {}, counts[2] = {};
+  for (std::size_t y = 0; y < 96; ++y) {
+    for (std::size_t x = 0; x + 1 < 96; ++x) {
+      const std::size_t border = x % 8 == 7 ? 1 : 0, i = 2 * (y * 96 + x);
+      sums[border] += std::abs(double{pixels[i + 2]} - double{pixels[i]});
+      ++counts[border];
+    }
+  }
+  return sums[1] / counts[1] * counts[0] / sums[0];
+}
+
+TEST(TreePictures, HaveNoStepsAtBorders) {
+  PriorBank bank;
+  bank.add(Covariance::isotropic(CovarianceShape::exponential, 2, 3));
+  EXPECT_GT(step_at_borders({.bank = bank, .ring = false, .blend = 0}), 1.5);
+  EXPECT_LT(step_at_borders({.bank = bank}), 1.2);
+}
+
+TEST(TreePictures, TellHowFarTheyAreOff) {
+  const auto waves = [](double x, double y) {
+    return std::array<float, 2>{static_cast<float>(std::sin(0.5 * x) * std::cos(0.3 * y)),
+                                static_cast<float>(std::hypot(x - 30, y - 31) < 17 ? 1 : 0)};
+  };
+  TreeSampler sampler(settings_of(64, 64));
+  TreePictures pictures(sampler.tree().positions());
+  double before = 1e9;
+  for (const std::uint64_t samples : {1000u, 4000u, 16000u}) {
+    sampler.run(waves, samples);
+    const std::vector<float> pixels = pictures.pixels(sampler.tree());
+    const std::vector<float> errors = pictures.errors(sampler.tree());
+    ASSERT_EQ(errors.size(), 64u * 64);
+    double expected = 0, real = 0;
+    for (std::size_t i = 0; i < errors.size(); ++i) {
+      ASSERT_GE(errors[i], 0);
+      expected += double{errors[i]};
+      std::array<double, 2> right{};
+      for (int k = 0; k < 256; ++k) {
+        const auto value = waves(static_cast<double>(i % 64) + (k % 16 + 0.5) / 16,
+                                 static_cast<double>(i / 64) + (k / 16 + 0.5) / 16);
+        for (std::size_t c = 0; c < 2; ++c) right[c] += double{value[c]} / 256;
+      }
+      for (std::size_t c = 0; c < 2; ++c) {
+        real += std::pow(double{pixels[2 * i + c]} - right[c], 2) / 2;
+      }
+    }
+    const double quotient = std::sqrt(expected / real);
+    EXPECT_GT(quotient, 0.6) << samples;
+    EXPECT_LT(quotient, 1.7) << samples;
+    EXPECT_LT(expected, before);
+    before = expected;
   }
 }
 

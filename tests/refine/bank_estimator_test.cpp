@@ -68,19 +68,25 @@ TEST(BankEstimator, AveragesGaussianProcessesByTheirEvidence) {
     const BankLists lists(bank, at, grid);
     const auto values = edge_samples(at);
     for (const std::size_t samples : {1u, 2u, 9u, 41u}) {
-      std::vector<Real> evidence, squares;
+      std::vector<Real> evidence, scales;
       std::vector<std::vector<oracle::GaussianProcess>> processes;
       for (const Covariance& member : bank.members()) {
         processes.emplace_back();
-        Real sum = 0;
+        Real sum = 0, earlier = 0;
+        const std::size_t half = (samples + 1) / 2;
         for (std::size_t c = 0; c < 3; ++c) {
           std::vector<double> own;
           for (std::size_t i = 0; i < samples; ++i) own.push_back(values[3 * i + c]);
           processes.back().emplace_back(member, std::span(at).first(samples), own, grid);
           sum += processes.back().back().quadratic;
+          own.resize(half);
+          earlier +=
+              oracle::GaussianProcess(member, std::span(at).first(half), own, grid).quadratic;
         }
-        squares.push_back(sum);
         const auto differences = static_cast<Real>(samples - 1);
+        // The mean square of the later innovations, and one more that is as all are in the mean.
+        scales.push_back((sum - earlier + (samples > 1 ? sum / differences : 0)) /
+                         static_cast<Real>(samples - half + 1));
         const Real log_evidence =
             samples == 1 ? 0
                          : -(differences * std::log(sum) + processes.back()[0].log_determinant) / 2;
@@ -107,9 +113,8 @@ TEST(BankEstimator, AveragesGaussianProcessesByTheirEvidence) {
               << samples << " samples, average " << p;
           error += square - mean * mean;
         }
-        for (std::size_t k = 0; k < 3 && samples > 1; ++k) {
-          error += evidence[k] / total * squares[k] / static_cast<Real>(samples - 1) *
-                   processes[k][0].variances[p];
+        for (std::size_t k = 0; k < 3; ++k) {
+          error += evidence[k] / total * scales[k] * processes[k][0].variances[p];
         }
         EXPECT_NEAR(found.errors[p], static_cast<double>(error / 3), 1e-4) << samples;
       }

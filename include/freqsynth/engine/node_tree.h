@@ -107,6 +107,9 @@ class NodeTree {
   }
   /// Mean of all values of a channel that a leaf knows, those that wait included; 0 without any.
   [[nodiscard]] float known_mean(std::uint32_t leaf, std::size_t channel) const;
+  /// The expected squared error of that mean, if values had nothing to do with each other; 0 with
+  /// fewer than two.
+  [[nodiscard]] double known_error(std::uint32_t leaf, std::size_t channel) const;
   /// Sum of the squares of the innovations of a channel.
   [[nodiscard]] float squares(std::uint32_t leaf, std::size_t channel) const {
     return nodes_[leaf].chunk.data[channel];

@@ -46,6 +46,19 @@ inline float NodeTree::known_mean(std::uint32_t leaf, std::size_t channel) const
   return count > 0 ? static_cast<float>(sum / static_cast<double>(count)) : 0.0f;
 }
 
+inline double NodeTree::known_error(std::uint32_t leaf, std::size_t channel) const {
+  const TreeNode& node = nodes_[leaf];
+  const double mean = double{known_mean(leaf, channel)};
+  double sum = 0, count = 0;
+  for (std::uint32_t i = 0; i < std::max(node.samples, node.held); ++i) {
+    if (!has(node, i)) continue;
+    const double off = double{store_.row(node.chunk, 2 * channel)[i]} - mean;
+    sum += off * off;
+    ++count;
+  }
+  return count > 1 ? sum / (count * (count - 1)) : 0;
+}
+
 inline TreePlace NodeTree::place(std::uint32_t number, std::size_t index) const {
   const TreeNode& node = nodes_[number];
   const NodePosition& position = positions_->of(node.of)[index];

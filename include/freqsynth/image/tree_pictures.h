@@ -62,7 +62,7 @@ class TreePictures {
 
   /// The expected squared error of each of these pixels, its mean over the channels, row by row: of
   /// the leaf that a pixel belongs to, before it is blended. The root of the mean of all is the
-  /// error to expect of the picture. Of a leaf that waits, how far what it knows is apart.
+  /// error to expect of the picture. Of a leaf that waits, NodeTree::known_error().
   /// \throws std::bad_alloc.
   template <Executor E>
   [[nodiscard]] std::vector<float> errors(const NodeTree& tree, E& executor) {

@@ -257,7 +257,9 @@ inline std::vector<float> TreePictures::squared_errors(const NodeTree& tree,
     // Leaves that lie within a pixel are off independently of each other.
     const double area = std::min(1.0, tree.area(leaf));
     if (!estimated(tree, leaf)) {
-      scratch.assign(side * side, 0.0f);
+      double sum = 0;
+      for (std::size_t c = 0; c < channels_; ++c) sum += tree.known_error(leaf, c);
+      scratch.assign(side * side, static_cast<float>(area * sum / static_cast<double>(channels_)));
       return detail::LeafNumbers{scratch.data(), nullptr, 0};
     }
     const std::size_t margin = margin_of(side), line = side + 2 * margin;

@@ -63,6 +63,7 @@ class FREQSYNTH_API BankEstimator {
   void weigh_directions(const PriorGroup& group);
   void choose();
   void average(std::size_t member);
+  [[nodiscard]] double scale_of(std::size_t node, std::size_t member) const;
   void add_variances(std::size_t member);
   void store();
   template <class Done>
@@ -80,6 +81,7 @@ class FREQSYNTH_API BankEstimator {
   std::vector<double> floors_;    // of each node: squares that are rounding
   std::vector<double> evidence_;  // nodes x members: log posterior
   std::vector<double> squares_;   // nodes x members: sum of squared innovations
+  std::vector<double> later_;     // of each node: the squares of its later innovations
   std::vector<double> averages_;  // lanes x averages
   std::vector<double> errors_;    // nodes x averages: mean squares, and variances
   std::vector<double> doubts_;    // nodes x averages

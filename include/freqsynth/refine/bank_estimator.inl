@@ -20,6 +20,9 @@ namespace detail {
 /// Log posterior of a member that was not tried.
 inline constexpr double untried = -std::numeric_limits<double>::infinity();
 
+/// The first sample of a node whose innovation is of the later half.
+constexpr std::size_t later_half(std::size_t count) { return (count + 1) / 2; }
+
 }  // namespace detail
 
 FREQSYNTH_INLINE BankEstimator::BankEstimator(const BankLists& lists, std::size_t channels,
@@ -113,14 +116,19 @@ FREQSYNTH_ROUNDING void BankEstimator::innovate(std::size_t member,
   const std::size_t averages = list.grid().count();
   chunk_.resize(width);
   innovations_.resize(std::max(innovations_.size(), most * width));
-  if (sums) sums_.resize(averages * width);
+  if (sums) {
+    sums_.resize(averages * width);
+    later_.assign(nodes_.size(), 0);
+  }
   const std::size_t lanes = which.size() * channels_;
   for (std::size_t first = 0; first < lanes; first += width) {
     const std::size_t used = std::min(width, lanes - first);
     std::size_t from[width];
-    float squares[width] = {};
+    float squares[width] = {}, earlier[width] = {};
+    std::size_t half[width] = {};
     for (std::size_t l = 0; l < used; ++l) {
       from[l] = which[(first + l) / channels_] * channels_ + (first + l) % channels_;
+      half[l] = detail::later_half(nodes_[from[l] / channels_]->count);
     }
     std::fill(chunk_.begin(), chunk_.end(), 0.0f);
     if (sums) std::fill(sums_.begin(), sums_.end(), 0.0f);
@@ -137,11 +145,15 @@ FREQSYNTH_ROUNDING void BankEstimator::innovate(std::size_t member,
       // Nodes whose samples are used up have no more innovations.
       for (std::size_t l = active; l < width; ++l) z[l] = 0;
       if (i > 0) {
-        for (std::size_t l = 0; l < width; ++l) squares[l] += z[l] * z[l];
+        for (std::size_t l = 0; l < width; ++l) {
+          squares[l] += z[l] * z[l];
+          if (i < half[l]) earlier[l] = squares[l];
+        }
       }
       if (sums) detail::add_lanes(row.gains.data(), averages, z, sums_.data());
     }
     for (std::size_t l = 0; l < used; ++l) {
+      if (sums) later_[from[l] / channels_] += double{squares[l] - earlier[l]};
       done(from[l] / channels_, from[l] % channels_, squares[l], l);
     }
   }

@@ -56,6 +56,19 @@ FREQSYNTH_ROUNDING inline void BankEstimator::average(std::size_t member) {
   add_variances(member);
 }
 
+/// The square of the scale that a member sees in a node now: the mean square of the later
+/// innovations, which tell how well it foresees what it has not seen, and one more that is as all
+/// are in the mean. The earlier ones tell of the whole course of a function, whose detail may be
+/// far smoother than the prior's, or rougher.
+FREQSYNTH_ROUNDING inline double BankEstimator::scale_of(std::size_t node,
+                                                         std::size_t member) const {
+  FREQSYNTH_ROUNDING_BEGIN
+  const std::size_t count = nodes_[node]->count;
+  const double mean = squares_[node * lists_.size() + member] /
+                      static_cast<double>(std::max<std::size_t>(1, count - 1));
+  return (later_[node] + mean) / static_cast<double>(count - detail::later_half(count) + 1);
+}
+
 /// Adds what a member expects of its own errors.
 FREQSYNTH_ROUNDING inline void BankEstimator::add_variances(std::size_t member) {
   FREQSYNTH_ROUNDING_BEGIN
@@ -73,8 +86,7 @@ FREQSYNTH_ROUNDING inline void BankEstimator::add_variances(std::size_t member) 
       }
     }
     const double weight = evidence_[node * members + member];
-    const double scale = squares_[node * members + member] /
-                         static_cast<double>(std::max<std::size_t>(1, count - 1));
+    const double scale = scale_of(node, member);
     // Below it, variances are rounding.
     constexpr double least = 1e-12;
     double mean = 0;
