@@ -72,6 +72,7 @@ set(FREQSYNTH_LAYERS
   "engine/block_choice.h|which blocks are next|4.4"
   "engine/wave.h|positions that were chosen together, and the values that came for them|"
   "engine/state_archive.h|what is saved of each part of an engine|"
+  "engine/host_desk.h|the half of an engine that faces the host: requests, values, ends|4"
   "engine/engine.h|all of these as one engine: request, deliver|4"
   "engine/sampling_loop.h|the loop behind `run`|"
   "engine/node_store.h|memory for the samples of nodes, which grows with them|"

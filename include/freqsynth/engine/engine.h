@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -18,7 +17,6 @@
 #include <mutex>
 #include <optional>
 #include <span>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -31,19 +29,15 @@
 #include "freqsynth/engine/block_store.h"
 #include "freqsynth/engine/channel_units.h"
 #include "freqsynth/engine/edge_cache.h"
-#include "freqsynth/engine/error_watch.h"
 #include "freqsynth/engine/executor.h"
 #include "freqsynth/engine/exploration.h"
-#include "freqsynth/engine/nearest_samples.h"
+#include "freqsynth/engine/host_desk.h"
 #include "freqsynth/engine/noise.h"
 #include "freqsynth/engine/noise_probes.h"
-#include "freqsynth/engine/pixel_counts.h"
 #include "freqsynth/engine/signal_statistics.h"
-#include "freqsynth/engine/stop_meter.h"
 #include "freqsynth/engine/stop_rule.h"
 #include "freqsynth/engine/team_work.h"
 #include "freqsynth/engine/visit_plan.h"
-#include "freqsynth/engine/waiting_room.h"
 #include "freqsynth/engine/wave.h"
 #include "freqsynth/refine/refiner.h"
 #include "freqsynth/sampler.h"
@@ -53,7 +47,7 @@ namespace freqsynth {
 /// All members may be called from any thread. Each does all that it says or, when it throws,
 /// nothing: what was delivered is never lost.
 template <Refiner R, BlockMeasure<R> M>
-class Engine {
+class Engine : public HostDesk<Engine<R, M>> {
  public:
   /// \param factors      factor on the priority of each block of the grid
   /// \param wave         most blocks of a wave; 1: one sample of one block; 0: 1/32 of all blocks
@@ -76,54 +70,13 @@ class Engine {
     context_ = context;
   }
 
-  /// Sets of how many requests request() hands out multiples, see SynthesisSettings::packet.
-  void use_packets(std::size_t size) { packet_ = size; }
-  /// That number.
-  [[nodiscard]] std::size_t packet() const { return packet_; }
-
-  /// Sets when request() stops, from the next wave on. \throws like StopRule::validate().
-  void set_stop(const StopRule& stop);
   /// Other factors on the priorities, one for each block, from the next wave on.
   void set_factors(std::vector<float> factors);
-  /// Hands out up to out.size() positions. \throws std::bad_alloc, and nothing is handed out.
-  std::size_t request(std::span<Request> out, Wait wait = Wait::no);
-  /// Takes values. \throws std::invalid_argument, and none is taken.
-  /// \param executor  helps to take in a wave that is complete by this. What it throws goes on,
-  ///                  but all values are taken
-  void deliver(std::span<const Request> requests, std::span<const float> values,
-               std::size_t stride = 0, const detail::ExecutorRef& executor = {});
-  /// Takes requests back without values. \throws std::invalid_argument, and none is taken.
-  void give_back(std::span<const Request> requests);
-  /// Takes requests back that nobody will answer. \throws std::invalid_argument, and none is taken.
-  void abandon(std::span<const Request> requests);
-  /// Nothing is handed out any more until set_stop().
-  void cancel();
-  /// Why nothing is handed out. \throws std::bad_alloc.
-  std::optional<StopReason> stopped();
-
-  /// How far it is.
-  [[nodiscard]] Progress progress() const;
   /// Most positions that request() hands out before values have to come back.
   [[nodiscard]] std::size_t wave_size() const {
     const std::size_t most = wave_size_ * longest_visit_;
     return most + NoiseProbes::most(most);
   }
-  /// Whether values are taken for estimates by now.
-  [[nodiscard]] bool noisy() const {
-    const std::lock_guard lock(mutex_);
-    return noise_ == Noise::present;
-  }
-  /// Counters since the engine's creation.
-  [[nodiscard]] SynthesisStats stats() const;
-  /// The first bad samples, at most 1000.
-  [[nodiscard]] std::vector<BadSample> bad_samples() const;
-
-  /// See NearestSamples::pixels().
-  [[nodiscard]] std::vector<float> nearest_pixels(std::size_t channel) const {
-    const std::unique_lock lock = settled();
-    return nearest_.pixels(channel);
-  }
-
   /// Calls read(grid, blocks) with the blocks after the last complete wave, which stay as they are
   /// meanwhile.
   template <class Read>
@@ -152,10 +105,19 @@ class Engine {
   }
 
  private:
-  static constexpr std::size_t most_bad_reported = 1000;
-  /// A sampler that has never had a usable value, in every block and in so many samples, is not
-  /// asked for more, unless a stop rule is set anew.
-  static constexpr std::uint64_t unusable_at_most = 64;
+  using Desk = HostDesk<Engine>;
+  friend Desk;
+  using Desk::ended_;
+  using Desk::errors_;
+  using Desk::grid_;
+  using Desk::mutex_;
+  using Desk::noise_;
+  using Desk::pixels_;
+  using Desk::reason;
+  using Desk::room_;
+  using Desk::stats_;
+  using Desk::stop_;
+  using Desk::wave_;
 
   /// Waves of fewer visits are not worth the trouble of sharing them.
   static constexpr std::size_t least_shared = 128;
@@ -169,8 +131,7 @@ class Engine {
     return blocks_.refiner().list().position(index);
   }
   void use_factors();
-  std::optional<StopReason> end();
-  [[nodiscard]] StopMeter::Shares shares() const;
+  [[nodiscard]] double share_of_blocks() const;
   [[nodiscard]] bool meets_target();
   template <class Archive, class Self>
   static void list_parts(Archive& archive, Self& self);
@@ -188,7 +149,6 @@ class Engine {
   void choose(std::uint32_t block, std::size_t samples);
   void choose_lagging(const Portion& most);
   void choose_least_sampled(const Portion& most);
-  [[nodiscard]] StopReason reason(StopReason why) const;
   // What the chosen blocks ask for; see engine_plan.inl.
   void plan_visits();
   [[nodiscard]] std::uint32_t asked_end(std::uint32_t block) const;
@@ -196,9 +156,6 @@ class Engine {
   void ask(Visit& visit);
   ValueSource source_of(std::uint32_t block, std::uint32_t index);
   [[nodiscard]] Request make_request(std::uint32_t slot) const;
-  void claim(std::span<const Request> requests);
-  [[nodiscard]] bool take_in_repeated();
-  bool take_in_repeated(const Wave::Slot& slot, const float* values);
   void change_units();
   void note(std::size_t slot);
   // How a wave is taken in; see engine_absorb.inl.
@@ -230,17 +187,11 @@ class Engine {
   void join();
   void keep_for_others();
 
-  BlockGrid grid_;
   BlockStore<R> blocks_;
   EdgeCache cache_;
   ChannelUnits units_;
   SignalStatistics signal_;
   BlockChoice<R, M> choice_;
-  Wave wave_;
-  PixelCounts pixels_;
-  NearestSamples nearest_;
-  NoiseProbes probes_;
-  Noise noise_;
   VisitPlan plan_;                      // of the wave
   std::vector<std::uint32_t> borders_;  // slots whose position other blocks have, too
   struct Known {
@@ -259,24 +210,11 @@ class Engine {
   std::uint64_t frame_;        // the seed, mixed
   std::size_t wave_size_;      // blocks
   std::size_t longest_visit_;  // samples
-  std::size_t packet_ = 1;     // requests
   Exploration exploration_;
   double shares_ = 0;                          // of all blocks, see BlockChoice::share()
   std::optional<std::vector<float>> factors_;  // that are to be used from the next wave on
-  StopRule stop_;
-  StopMeter meter_;
-  ErrorWatch errors_;
   Predictor predict_ = nullptr;
   const void* context_ = nullptr;
-  std::optional<StopReason> ended_;  // why there is no wave
-  std::atomic<bool> cancelled_{false};
-  WaitingRoom room_;
-  SynthesisStats stats_;
-  std::vector<bool> counts_;  // channels whose values can make a sample bad
-  bool any_usable_ = false;   // whether there was a usable value
-  std::uint64_t patience_ = unusable_at_most;
-  std::vector<BadSample> bad_;
-  mutable std::mutex mutex_;
   mutable std::mutex snapshot_;  // of which there is one at a time; locked before the other
 };
 

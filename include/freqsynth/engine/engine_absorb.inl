@@ -19,7 +19,7 @@ template <Refiner R, BlockMeasure<R> M>
 void Engine<R, M>::end_of_delivery(std::unique_lock<std::mutex>& lock,
                                    const detail::ExecutorRef& executor) {
   if (team_.active() || !wave_.complete()) return;
-  others_ = take_in_repeated();
+  others_ = this->take_in_repeated() && choice_.notice_noise(view());
   if (!units_.fit(wave_.values())) change_units();
   for (std::size_t i = 0; i < wave_.samples(); ++i) note(i);
   take_known();
@@ -145,10 +145,7 @@ void Engine<R, M>::finish_wave() {
 /// And after that.
 template <Refiner R, BlockMeasure<R> M>
 void Engine<R, M>::end_wave() {
-  stats_.samples += wave_.samples();
-  stats_.probes += wave_.size() - wave_.samples();
-  ++stats_.waves;
-  wave_.clear();
+  this->close_wave();
   borders_.clear();
   known_.clear();
   plan_.clear();

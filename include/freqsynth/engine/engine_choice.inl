@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How waves are chosen.
+// How waves are chosen, and when none is.
 #pragma once
 
 namespace freqsynth {
@@ -16,21 +16,18 @@ void Engine<R, M>::use_factors() {
 template <Refiner R, BlockMeasure<R> M>
 std::optional<StopReason> Engine<R, M>::prepare_wave() {
   use_factors();
-  const std::optional<StopReason> reason = choose_wave();
-  if (!reason) errors_.pass(stats_.absorbed);
+  const std::optional<StopReason> why = choose_wave();
+  if (!why) errors_.pass(stats_.absorbed);
   plan_visits();
-  probes_.visit(stats_.samples, wave_.samples(),
-                [&](std::size_t slot) { wave_.repeat(static_cast<std::uint32_t>(slot)); });
-  return reason;
+  this->repeat_some();
+  return why;
 }
 
 /// Chooses the blocks of the next wave. \return why there is none
 template <Refiner R, BlockMeasure<R> M>
 std::optional<StopReason> Engine<R, M>::choose_wave() {
   if (stats_.samples >= stop_.samples) return reason(StopReason::samples);
-  if (!any_usable_ && blocks_.untouched() == 0 && stats_.samples >= patience_) {
-    return reason(StopReason::exhausted);
-  }
+  if (this->hopeless() && blocks_.untouched() == 0) return reason(StopReason::exhausted);
   if (meets_target()) return reason(StopReason::target_rmse);
   const Portion most = portion();
   reserve(most);
@@ -65,19 +62,16 @@ typename Engine<R, M>::Portion Engine<R, M>::portion() const {
 template <Refiner R, BlockMeasure<R> M>
 void Engine<R, M>::reserve(const Portion& most) {
   const std::size_t samples = most.blocks * most.visit;
-  const std::size_t slots = samples + NoiseProbes::most(samples);
   // A sample on an edge goes to two blocks. One at a corner goes to four, each of which may go on
   // with its other corners; the blocks that ask for corners ask for one sample each. And each block
   // may take in what waits for it.
   const std::size_t known = 20 * most.blocks + cache_.waiting();
-  wave_.reserve(slots, known);
+  this->reserve_wave(samples, known);
   plan_.reserve(2 * samples + known);
   borders_.reserve(samples);
   if (known > known_.capacity()) known_.reserve(std::max(known, 2 * known_.capacity()));
-  pixels_.reserve(slots);
   blocks_.reserve(2 * samples + known);
   cache_.reserve(samples);
-  bad_.reserve(std::min(bad_.size() + samples, most_bad_reported));
   // Beside its own samples a block may take in what its neighbours know before and after them.
   const std::size_t reach = most.visit + 2 * SampleSequence::longest_border_run + 2;
   if (changes_.size() < reach) changes_.resize(reach);
@@ -122,10 +116,22 @@ void Engine<R, M>::choose_least_sampled(const Portion& most) {
   }
 }
 
-/// Without a usable value no end is a good one.
 template <Refiner R, BlockMeasure<R> M>
-StopReason Engine<R, M>::reason(StopReason why) const {
-  return stats_.samples > 0 && !any_usable_ ? StopReason::unusable : why;
+double Engine<R, M>::share_of_blocks() const {
+  const double most =
+      static_cast<double>(blocks_.size()) * static_cast<double>(blocks_.most_samples());
+  return most > 0 ? static_cast<double>(stats_.absorbed) / most : 1;
+}
+
+/// Whether the expected error is as small as a rule wants it.
+template <Refiner R, BlockMeasure<R> M>
+bool Engine<R, M>::meets_target() {
+  if (stop_.target_rmse == 0 || predict_ == nullptr || !errors_.due(stats_.absorbed)) return false;
+  if (blocks_.untouched() > 0) return false;
+  const double error = errors_.look(stats_.absorbed, [&] {
+    return predict_(context_, grid_, BlockSnapshot<R>(blocks_), noise_ == Noise::present);
+  });
+  return error <= stop_.target_rmse;
 }
 
 }  // namespace freqsynth

@@ -3,6 +3,8 @@
 // before the first value comes.
 #pragma once
 
+#include "freqsynth/basis/mix_bits.h"
+
 namespace freqsynth {
 
 /// Completes the plan whose blocks are chosen, and makes the slots of the wave.
@@ -80,6 +82,30 @@ ValueSource Engine<R, M>::source_of(std::uint32_t block, std::uint32_t index) {
   }
   wave_.add({block, index});
   return {slot, false};
+}
+
+/// All of a request but its ordinal.
+template <Refiner R, BlockMeasure<R> M>
+Request Engine<R, M>::make_request(std::uint32_t slot) const {
+  const Wave::Slot& asked = wave_.slot(slot);
+  const SequencePosition& place = position(asked.index);
+  const BlockGrid::Point point = grid_.point(asked.block, place);
+  const std::size_t side =
+      std::min(grid_.block_width(asked.block), grid_.block_height(asked.block));
+  // Names take 53 bits.
+  const bool again = asked.repeated != Wave::Slot::none;
+  const std::uint64_t id =
+      grid_.name(asked.block, asked.index, place) | (again ? std::uint64_t{1} << 63 : 0);
+  return {.x = point.x,
+          .y = point.y,
+          .id = id,
+          .spacing = place.spacing * static_cast<float>(side),
+          .slot = slot,
+          .seed = detail::mix_bits(id * detail::golden_step + frame_),
+          .pixel = pixels_.pixel(point),
+          .ordinal = 0,
+          .thread = 0,
+          .again = again};
 }
 
 }  // namespace freqsynth

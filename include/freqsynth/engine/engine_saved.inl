@@ -13,14 +13,7 @@ void Engine<R, M>::list_parts(Archive& archive, Self& self) {
     std::size_t wave_size = self.wave_size_;
     archive.count(wave_size);
     archive.check(wave_size == self.wave_size_);
-    archive.number(self.noise_);
-    archive.check(self.noise_ <= Noise::present);
-    archive.number(self.any_usable_);
-    archive.number(self.patience_);
-    StateArchive::stats(archive, self.stats_);
-    StateArchive::stop(archive, self.stop_);
-    StateArchive::errors(archive, self.errors_);
-    StateArchive::bad_samples(archive, self.bad_, most_bad_reported);
+    Desk::list_desk(archive, self);
   });
   archive.section("UNIT", [&] { StateArchive::units(archive, self.units_); });
   if constexpr (Archive::loading) {
@@ -60,10 +53,9 @@ void Engine<R, M>::list_parts(Archive& archive, Self& self) {
     self.signal_.use_units(self.units_.exponents(), self.units_.weights());
     self.choice_.use_units(self.view(), 1);
   }
-  archive.section("PIXL", [&] { StateArchive::pixels(archive, self.pixels_); });
-  archive.section("NEAR", [&] { StateArchive::nearest(archive, self.nearest_); });
+  Desk::list_pixels(archive, self);
   archive.section("WAVE", [&] { list_wave(archive, self); });
-  if constexpr (Archive::loading) self.meter_.begin(self.stop_.seconds, self.shares());
+  if constexpr (Archive::loading) self.start_clock();
 }
 
 /// The wave is planned anew, from the blocks that were chosen.
@@ -79,10 +71,6 @@ void Engine<R, M>::list_wave(Archive& archive, Self& self) {
     archive.number(visit.asked);
     archive.check(visit.asked >= 1 && visit.asked <= self.longest_visit_);
   });
-  std::vector<std::uint32_t> repeated;
-  for (std::size_t i = self.wave_.samples(); i < self.wave_.size(); ++i) {
-    repeated.push_back(self.wave_.slot(i).repeated);
-  }
   if constexpr (Archive::loading) {
     if (!chosen.empty()) self.reserve({chosen.size(), self.longest_visit_});
     for (const Visit& visit : chosen) {
@@ -93,22 +81,7 @@ void Engine<R, M>::list_wave(Archive& archive, Self& self) {
     }
     self.plan_visits();
   }
-  archive.list(repeated, NoiseProbes::most(self.wave_.samples()));
-  if constexpr (Archive::loading) {
-    for (std::size_t i = 0; i < repeated.size(); ++i) {
-      archive.check(repeated[i] < self.wave_.samples() &&
-                    (i == 0 || repeated[i] > repeated[i - 1]));
-      self.wave_.repeat(repeated[i]);
-    }
-  }
-  StateArchive::wave(archive, self.wave_);
-  StateArchive::probes(archive, self.probes_, self.stats_.samples + self.wave_.samples());
-  if constexpr (Archive::loading) {
-    for (std::uint32_t i = 0; i < self.wave_.size(); ++i) {
-      Wave::Slot& slot = self.wave_.slot(i);
-      if (slot.ordinal != Wave::Slot::no_ordinal) slot.id = self.make_request(i).id;
-    }
-  }
+  Desk::list_slots(archive, self);
 }
 
 }  // namespace freqsynth
