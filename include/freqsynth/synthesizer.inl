@@ -21,20 +21,23 @@
 #include "freqsynth/refine/least_squares_refiner.h"
 #include "freqsynth/synthesizer.h"
 #include "freqsynth/synthesizer_settings.inl"
+#include "freqsynth/synthesizer_tree.inl"
 
 namespace freqsynth {
 
 struct Synthesizer::Implementation {
   using R = LeastSquaresRefiner;
   using Engines = std::variant<std::monostate, Engine<R, ResidualMeasure>, Engine<R, ChangeMeasure>,
-                               Engine<R, QuantizerMeasure>>;
+                               Engine<R, QuantizerMeasure>, TreeSynthesis>;
 
   explicit Implementation(SynthesisSettings wanted)
       : grid(detail::sampled_grid(wanted)),
         settings(detail::validated(std::move(wanted), grid.whole().size())) {
     const std::size_t blocks = grid.size();
     const std::size_t most = settings.max_samples_per_block;
-    if (settings.quantization) {
+    if (settings.refiner == RefinerKind::kriging) {
+      engines.emplace<TreeSynthesis>(settings);
+    } else if (settings.quantization) {
       build(QuantizerMeasure(*settings.quantization, settings.priority,
                              settings.noise == Noise::present, blocks, most));
     } else if (settings.priority.measure == PriorityMeasure::change) {
@@ -49,13 +52,24 @@ struct Synthesizer::Implementation {
   [[nodiscard]] double predicted_rmse(const BlockGrid& sampled, const BlockSnapshot<R>& blocks,
                                       const FinishSettings& finish) const;
 
+  /// The synthesis by a tree, if it is one.
+  [[nodiscard]] TreeSynthesis* tree() { return std::get_if<TreeSynthesis>(&engines); }
+  [[nodiscard]] const TreeSynthesis* tree() const { return std::get_if<TreeSynthesis>(&engines); }
+
   /// Calls use(engine).
   template <class Use>
   auto with_engine(Use&& use) {
+    if (TreeSynthesis* one = tree()) return use(one->engine);
     return visit(engines, use);
   }
   template <class Use>
   auto with_engine(Use&& use) const {
+    if (const TreeSynthesis* one = tree()) return use(one->engine);
+    return visit(engines, use);
+  }
+  /// The same of an engine of blocks.
+  template <class Use>
+  auto with_blocks(Use&& use) const {
     return visit(engines, use);
   }
 
@@ -88,7 +102,7 @@ struct Synthesizer::Implementation {
   template <class Use>
   auto with_snapshot(const FinishSettings& finish, Use&& use) const {
     const std::vector<std::size_t> features = detail::channels_of(settings, ChannelRole::feature);
-    return with_engine([&](const auto& engine) {
+    return with_blocks([&](const auto& engine) {
       return engine.with_snapshot(
           [&](const BlockGrid& blocks_grid, const auto& blocks, bool noisy) {
             return use(blocks_grid, blocks, detail::settings_for(finish, noisy), features);
@@ -181,7 +195,8 @@ FREQSYNTH_INLINE RunReport Synthesizer::run_erased(const detail::SamplerRef& sam
 }
 
 FREQSYNTH_INLINE FrequencyImage Synthesizer::image_on(const detail::ExecutorRef& executor) const {
-  return implementation_->shown(implementation_->with_engine([&](const auto& engine) {
+  if (const TreeSynthesis* tree = implementation_->tree()) return tree->image();
+  return implementation_->shown(implementation_->with_blocks([&](const auto& engine) {
     return engine.with_snapshot([&](const BlockGrid& grid, const auto& blocks, bool) {
       return fit_image(grid, blocks, executor);
     });
@@ -191,6 +206,7 @@ FREQSYNTH_INLINE FrequencyImage Synthesizer::image_on(const detail::ExecutorRef&
 FREQSYNTH_INLINE FrequencyImage Synthesizer::finished_image_on(
     const FinishSettings& settings, const detail::ExecutorRef& executor) const {
   settings.validate();
+  if (const TreeSynthesis* tree = implementation_->tree()) return tree->finished_image(settings);
   return implementation_->shown(implementation_->with_snapshot(
       settings, [&](const BlockGrid& grid, const auto& blocks, const FinishSettings& known,
                     std::span<const std::size_t> features) {
@@ -202,6 +218,9 @@ FREQSYNTH_INLINE FrequencyImage Synthesizer::finished_image_on(
 FREQSYNTH_INLINE void Synthesizer::finish_on(const PixelView& out, const FinishSettings& settings,
                                              const detail::ExecutorRef& executor) const {
   settings.validate();
+  if (const TreeSynthesis* tree = implementation_->tree()) {
+    return reconstruct(tree->finished_image(settings), {}, out, executor);
+  }
   implementation_->with_snapshot(settings, [&](const BlockGrid& grid, const auto& blocks,
                                                const FinishSettings& known,
                                                std::span<const std::size_t> features) {
@@ -236,7 +255,9 @@ FREQSYNTH_INLINE PixelWindow Synthesizer::window() const {
 FREQSYNTH_INLINE void Synthesizer::set_importance(std::span<const float> importance) {
   const BlockGrid& grid = implementation_->grid;
   detail::check_importance(importance, grid.whole().size());
-  std::vector<float> factors = detail::factors_of(grid, importance);
+  std::vector<float> factors = implementation_->tree() != nullptr
+                                   ? std::vector<float>(importance.begin(), importance.end())
+                                   : detail::factors_of(grid, importance);
   implementation_->with_engine([&](auto& engine) { engine.set_factors(std::move(factors)); });
 }
 

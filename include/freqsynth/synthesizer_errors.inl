@@ -12,7 +12,8 @@ namespace freqsynth {
 
 FREQSYNTH_INLINE std::vector<float> Synthesizer::error_image(const FinishSettings& settings) const {
   settings.validate();
-  const std::vector<float> all = implementation_->with_engine([&](const auto& engine) {
+  if (const TreeSynthesis* tree = implementation_->tree()) return tree->error_image();
+  const std::vector<float> all = implementation_->with_blocks([&](const auto& engine) {
     return engine.with_snapshot([&](const BlockGrid& grid, const auto& blocks, bool noisy) {
       return freqsynth::error_image(grid, blocks, detail::settings_for(settings, noisy));
     });
@@ -36,7 +37,8 @@ inline double Synthesizer::Implementation::predicted_rmse(const BlockGrid& sampl
 
 FREQSYNTH_INLINE double Synthesizer::predicted_rmse(const FinishSettings& settings) const {
   settings.validate();
-  return implementation_->with_engine([&](const auto& engine) {
+  if (const TreeSynthesis* tree = implementation_->tree()) return tree->predicted_rmse();
+  return implementation_->with_blocks([&](const auto& engine) {
     return engine.with_snapshot([&](const BlockGrid& grid, const auto& blocks, bool noisy) {
       return implementation_->predicted_rmse(grid, blocks, detail::settings_for(settings, noisy));
     });

@@ -51,7 +51,8 @@ void same_settings(Archive& archive, const SynthesisSettings& settings) {
   same_setting(archive, "channels", std::uint64_t{settings.channels});
   same_setting(archive, "noise", settings.noise);
   same_setting(archive, "seed", settings.seed);
-  const InverseListSettings& list = settings.shared_list->settings();
+  const InverseListSettings& list =
+      settings.shared_list ? settings.shared_list->settings() : settings.list;
   same_setting(archive, "list.samples_per_term", list.samples_per_term);
   same_setting(archive, "list.max_terms", std::uint64_t{list.max_terms});
   same_setting(archive, "list.seed", list.seed);

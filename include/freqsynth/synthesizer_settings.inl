@@ -91,6 +91,8 @@ inline void check_importance(std::span<const float> importance, std::size_t bloc
 /// Settings that are in range, with a list.
 /// \param blocks  of the whole picture
 inline SynthesisSettings validated(SynthesisSettings settings, std::size_t blocks) {
+  require(settings.refiner <= RefinerKind::kriging, "refiner",
+          static_cast<double>(settings.refiner), "least_squares or kriging");
   settings.priority.validate();
   if (settings.max_samples_per_block == 0 ||
       settings.max_samples_per_block > SampleSequence::max_size) {
@@ -111,7 +113,8 @@ inline SynthesisSettings validated(SynthesisSettings settings, std::size_t block
     require(settings.priority.steer == Steer::linear, "priority.steer",
             static_cast<double>(settings.priority.steer), "linear, with a quantization target");
   }
-  if (!settings.shared_list) settings.shared_list = SharedInverseList(settings.list);
+  const bool needs_list = settings.refiner == RefinerKind::least_squares;
+  if (needs_list && !settings.shared_list) settings.shared_list = SharedInverseList(settings.list);
   return settings;
 }
 

@@ -48,6 +48,13 @@ class NodeStore {
   /// Gives a chunk more room; what rows hold beyond `used` samples becomes 0.
   /// \throws std::bad_alloc, and it is as it was.
   void enlarge(Chunk& chunk, std::size_t used, std::size_t samples);
+  /// A chunk with what one of another store, with heads and rows like these, holds.
+  /// \throws std::bad_alloc.
+  [[nodiscard]] Chunk copy(const Chunk& other) {
+    const Chunk chunk = take(other.room());
+    std::copy_n(other.data, floats(chunk.step), chunk.data);
+    return chunk;
+  }
   /// Takes a chunk back, which becomes none.
   void give_back(Chunk& chunk) {
     if (!chunk) return;

@@ -73,6 +73,9 @@ class NodeTree {
   /// \throws std::invalid_argument like NodePositions and KrigingRefiner.
   NodeTree(const BlockGrid& grid, const NodePositions& positions, std::size_t limit,
            std::vector<float> weights, double noise);
+  /// A copy, which shares the lists. \throws std::bad_alloc.
+  NodeTree(const NodeTree& other);
+  NodeTree& operator=(const NodeTree&) = delete;
 
   /// Where blocks lie.
   [[nodiscard]] const BlockGrid& grid() const { return grid_; }

@@ -24,6 +24,21 @@ inline NodeTree::NodeTree(const BlockGrid& grid, const NodePositions& positions,
   }
 }
 
+inline NodeTree::NodeTree(const NodeTree& other)
+    : grid_(other.grid_),
+      positions_(other.positions_),
+      refiner_(other.refiner_),
+      store_(2 * refiner_.channels(), 2 * refiner_.channels()),
+      nodes_(other.nodes_),
+      found_(other.found_),
+      kept_(other.kept_),
+      kept_values_(other.kept_values_),
+      absorbed_(other.absorbed_) {
+  for (TreeNode& node : nodes_) {
+    if (node.chunk) node.chunk = store_.copy(node.chunk);
+  }
+}
+
 inline double NodeTree::squares(std::uint32_t leaf) const {
   const float* head = nodes_[leaf].chunk.data;
   if (head == nullptr) return 0;
@@ -128,7 +143,9 @@ inline void NodeTree::set_factors(std::uint32_t leaf, std::span<const float> fac
 
 inline void NodeTree::set_scale(std::uint32_t leaf) {
   TreeNode& node = nodes_[leaf];
-  if (node.samples > 1) node.scale = static_cast<float>(squares(leaf) / (node.samples - 1));
+  if (node.samples < 2) return;
+  // Finite, and so are sums of it.
+  node.scale = static_cast<float>(std::min(squares(leaf) / (node.samples - 1), 1e30));
 }
 
 /// Whether the next sample is known; then its values are in `found_`.

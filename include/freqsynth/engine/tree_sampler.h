@@ -5,10 +5,12 @@
 /// asked for and the values alone.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
-#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -61,11 +63,39 @@ class TreeSampler {
   [[nodiscard]] const TreeSettings& settings() const { return settings_; }
   /// Counters.
   [[nodiscard]] TreeStats stats() const;
+  /// Whether every block has had a sample.
+  [[nodiscard]] bool all_sampled() const { return steering_.settled(); }
+  /// Leaves that the next wave has, where there are so many that want samples.
+  [[nodiscard]] std::size_t usual_wave() const {
+    return settings_.wave != 0 ? settings_.wave : std::max<std::size_t>(leaves_ / 32, 1);
+  }
 
-  /// Chooses the next wave of at most so many positions; none when `most` is 0 or all leaves are
-  /// complete. The one before has been taken in, or is forgotten. Valid until the next call.
-  /// \throws std::bad_alloc; the sampler must not be used any more then.
+  /// Factors on the priorities of all leaves of each block, not negative, from the next wave on;
+  /// none: 1. With 0 a block is left at its first sample.
+  void use_factors(std::vector<float> factors);
+  /// What may be asked for.
+  struct Limits {
+    std::uint64_t samples = 0;  ///< positions, at most
+    double priority = -1;       ///< leaves whose priority is not above it want no sample
+    std::size_t least = 0;      ///< but blocks do that have had fewer samples
+  };
+  /// Chooses the next wave: none when no sample is allowed, or no leaf wants one. The one before
+  /// has been taken in, or is forgotten. Valid until the next call. Pixels and
+  /// ordinals are 0.
+  /// \throws std::bad_alloc, and nothing has changed.
+  std::span<const Request> plan(const Limits& limits);
+  /// The same of at most so many positions, with ordinals. \throws std::bad_alloc.
   std::span<const Request> choose(std::uint64_t at_most);
+  /// The leaf that asks for a position of the wave.
+  [[nodiscard]] std::uint32_t owner(std::size_t position) const { return owners_[position]; }
+  /// The positions of the wave; none once it is taken in.
+  [[nodiscard]] std::span<const Request> planned() const { return wave_; }
+  /// Whether all leaves have had all samples that they may have. Between waves.
+  [[nodiscard]] bool complete() const;
+  /// Whether a value is one that nodes take in.
+  [[nodiscard]] static bool usable(float value) {
+    return is_usable_sample(value) && std::abs(value) <= most_value;
+  }
   /// Takes the values of the wave, one per channel and position. A value that is not usable is
   /// replaced by what the node expects.
   /// \throws std::invalid_argument when there are more or fewer, and nothing is taken;
@@ -79,8 +109,13 @@ class TreeSampler {
 
  private:
   /// Largest magnitude whose squares a node bears.
-  static constexpr float most_value = 1e18f;
+  static constexpr float most_value = 1e15f;
 
+  [[nodiscard]] static std::uint64_t name_of(const TreePlace& place) {
+    return (static_cast<std::uint64_t>(place.y) << 32) | static_cast<std::uint64_t>(place.x);
+  }
+  void take(std::uint32_t leaf);
+  void ask();
   void add_request(std::uint32_t leaf);
   void repair(std::uint32_t leaf);
   void note(std::uint32_t leaf);
@@ -96,18 +131,23 @@ class TreeSampler {
   NodeTree tree_;
   TreeSteering steering_;
   BlockQueue queue_;
-  PixelCounts pixels_;
-  std::uint64_t frame_;  // the seed, mixed
+  std::optional<PixelCounts> pixels_;  // of choose()
+  std::uint64_t frame_;                // the seed, mixed
   std::size_t leaves_;
   double scales_ = 0;  // of all blocks
   std::vector<Request> wave_;
-  std::vector<std::uint32_t> owners_;        // of its positions
-  std::unordered_set<std::uint64_t> asked_;  // the same on borders
-  std::vector<std::uint32_t> chosen_;        // leaves, some of which ask for nothing of their own
-  std::vector<std::uint32_t> touched_;       // leaves that have taken in something
-  std::vector<std::uint32_t> ripe_;          // leaves that may have to be split
+  std::vector<std::uint32_t> owners_;  // of its positions
+  struct Border {
+    std::uint64_t name = 0;
+    std::size_t number = 0;  // in `chosen_`
+  };
+  std::vector<Border> borders_;         // positions on borders
+  std::vector<std::uint32_t> chosen_;   // leaves, some of which ask for nothing of their own
+  std::vector<std::uint32_t> touched_;  // leaves that have taken in something
+  std::vector<std::uint32_t> ripe_;     // leaves that may have to be split
   std::vector<bool> is_touched_;
-  std::vector<float> told_;  // the scale of each node that others know of
+  std::vector<float> factors_;  // on priorities, of each block; none: 1
+  std::vector<float> told_;     // the scale of each node that others know of
   std::vector<float> values_;
   std::vector<double> sums_;  // of the usable values of each channel
   std::vector<std::uint64_t> usable_;

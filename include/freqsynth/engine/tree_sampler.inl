@@ -8,6 +8,7 @@
 #include "freqsynth/basis/check.h"
 #include "freqsynth/basis/mix_bits.h"
 #include "freqsynth/engine/tree_sampler.h"
+#include "freqsynth/engine/tree_sampler_choice.inl"
 
 namespace freqsynth {
 namespace detail {
@@ -42,7 +43,6 @@ inline TreeSampler::TreeSampler(const TreeSettings& settings, SplitRule* rule)
             settings.noisy ? KrigingRefiner::noise_of_estimates : KrigingRefiner::noise_of_detail),
       steering_(settings.steer, settings.exposure, settings.weights.size()),
       queue_(tree_.size()),
-      pixels_(tree_.grid()),
       frame_(detail::mix_bits(settings.seed + detail::golden_step)),
       leaves_(tree_.size()),
       is_touched_(tree_.size()),
@@ -82,61 +82,18 @@ inline float TreeSampler::priority(std::uint32_t leaf) const {
   constexpr float urgent = 1e30f, doubt = 1e-12f;
   const TreeNode& node = tree_.node(leaf);
   if (!node.leaf() || node.complete()) return BlockQueue::absent;
+  const double factor = factors_.empty() ? 1 : double{factors_[node.block]};
+  if (factor == 0 && node.samples > 0) return BlockQueue::absent;
   if (node.samples < first) return urgent / static_cast<float>(node.samples + 1);
   const double mean = scales_ / static_cast<double>(tree_.grid().size());
   const double squares = tree_.squares(leaf) + double{doubt} * mean;
   const double scale = KrigingRefiner::scale(squares, node.samples, around(leaf));
   const double area = tree_.area(leaf);
   const double share = area < 1 ? area * area : area;
-  const double gain = share * scale * double{tree_.refiner().variance(node.of, node.samples)} /
+  const double gain = factor * share * scale *
+                      double{tree_.refiner().variance(node.of, node.samples)} /
                       static_cast<double>(node.samples);
   return static_cast<float>(std::min(gain, 1e29));
-}
-
-inline std::span<const Request> TreeSampler::choose(std::uint64_t at_most) {
-  for (const std::uint32_t leaf : chosen_) queue_.update(leaf, priority(leaf));
-  chosen_.clear();
-  wave_.clear();
-  owners_.clear();
-  const std::size_t usual =
-      settings_.wave != 0 ? settings_.wave : std::max<std::size_t>(leaves_ / 32, 1);
-  const auto size = static_cast<std::size_t>(std::min<std::uint64_t>(usual, at_most));
-  while (chosen_.size() < size && queue_.top_priority() != BlockQueue::absent) {
-    const auto leaf = static_cast<std::uint32_t>(queue_.top());
-    queue_.update(leaf, BlockQueue::absent);
-    chosen_.push_back(leaf);
-  }
-  std::sort(chosen_.begin(), chosen_.end());
-  asked_.clear();
-  for (const std::uint32_t leaf : chosen_) add_request(leaf);
-  pixels_.reserve(wave_.size());
-  for (Request& request : wave_) request.ordinal = pixels_.next(request.pixel);
-  return wave_;
-}
-
-/// Asks for the next sample of a leaf, unless another one that touches it has asked for it.
-inline void TreeSampler::add_request(std::uint32_t leaf) {
-  const TreeNode& node = tree_.node(leaf);
-  const TreePlace place = tree_.place(leaf, node.samples);
-  const std::uint64_t id =
-      (static_cast<std::uint64_t>(place.y) << 32) | static_cast<std::uint64_t>(place.x);
-  if (NodePositions::on_border(positions_.of(node.of)[node.samples])) {
-    if (!asked_.insert(id).second) return;
-  }
-  const BlockGrid& grid = tree_.grid();
-  const BlockGrid::Point point = tree_.point(place);
-  const std::size_t edge = std::min(grid.block_width(node.block), grid.block_height(node.block));
-  Request request;
-  request.x = point.x;
-  request.y = point.y;
-  request.id = id;
-  request.spacing =
-      std::ldexp(positions_.spacing(node.samples) * static_cast<float>(edge), -int{node.depth});
-  request.slot = static_cast<std::uint32_t>(wave_.size());
-  request.seed = detail::mix_bits(id * detail::golden_step + frame_);
-  request.pixel = pixels_.pixel(point);
-  wave_.push_back(request);
-  owners_.push_back(leaf);
 }
 
 inline void TreeSampler::take_in(std::span<const float> values) {
@@ -192,7 +149,7 @@ inline void TreeSampler::settle() {
 inline void TreeSampler::repair(std::uint32_t leaf) {
   bool bad = false;
   for (std::size_t c = 0; c < values_.size(); ++c) {
-    if (is_usable_sample(values_[c]) && std::abs(values_[c]) <= most_value) {
+    if (usable(values_[c])) {
       sums_[c] += double{values_[c]};
       ++usable_[c];
       continue;

@@ -81,6 +81,8 @@ inline void TreeSteering::set_level(const NodeTree& tree, std::size_t channel) {
 
 inline void TreeSteering::look_at(NodeTree& tree, std::uint32_t leaf) {
   if (linear() || !settled_ || !tree.node(leaf).leaf()) return;
+  // A quadrant that waits for its first corner knows nothing yet.
+  if (tree.node(leaf).samples == 0) return;
   set_factors(tree, leaf);
 }
 
@@ -92,7 +94,8 @@ inline void TreeSteering::set_factors(NodeTree& tree, std::uint32_t leaf) {
     for (const float value : values) squares += (value - middle) * (value - middle);
     const double reach = std::sqrt(squares / static_cast<double>(values.size()));
     const double slope = detail::seen_slope(steer_, middle, reach, levels_[c], exposure_);
-    factors_[c] = static_cast<float>(slope * slope);
+    // Finite, where values are tiny.
+    factors_[c] = static_cast<float>(std::min(slope * slope, 1e38));
   }
   tree.set_factors(leaf, factors_);
 }

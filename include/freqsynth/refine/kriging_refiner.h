@@ -33,7 +33,8 @@ namespace freqsynth {
   return (difference - predicted_by(row, innovations)) * row.inverse_pivot;
 }
 
-/// Estimates the scale of nodes; the nodes themselves belong to the caller.
+/// Estimates the scale of nodes; the nodes themselves belong to the caller. Copies share their
+/// lists.
 class FREQSYNTH_API KrigingRefiner {
  public:
   /// Length of the covariance, in edges of the node.
@@ -82,7 +83,7 @@ class FREQSYNTH_API KrigingRefiner {
 
  private:
   std::vector<float> weights_;
-  std::vector<std::unique_ptr<InnovationList>> lists_;
+  std::vector<std::shared_ptr<const InnovationList>> lists_;
 };
 
 }  // namespace freqsynth

@@ -18,7 +18,7 @@ FREQSYNTH_INLINE KrigingRefiner::KrigingRefiner(const NodePositions& positions,
     for (std::size_t i = 0; i < points.size(); ++i) {
       points[i] = {positions.s(of, i), positions.t(of, i)};
     }
-    lists_.push_back(std::make_unique<InnovationList>(rough, points,
+    lists_.push_back(std::make_shared<InnovationList>(rough, points,
                                                       AverageGrid::of_node(positions.pixels(of))));
   }
 }
