@@ -82,6 +82,7 @@ set(FREQSYNTH_LAYERS
   "engine/tree_settings.h|what the sampling of a tree depends on|"
   "engine/tree_steering.h|in what unit the errors of nodes are compared|"
   "engine/tree_sampler.h|chooses samples with a tree of nodes, and splits these|"
+  "engine/tree_archive.h|what is saved of a tree of nodes|"
   "engine/tree_engine.h|a tree of nodes as an engine: request, deliver|"
   "image/butterworth.h|the low-pass filter against what aliasing is left|4.5"
   "image/frequency_image.h|the result: coefficients and sample counts per block|4"

@@ -11,6 +11,11 @@
 namespace freqsynth {
 namespace detail {
 
+/// What engines of different refiners save are different things.
+inline const ArchiveKind& kind_of(const SynthesisSettings& settings) {
+  return settings.refiner == RefinerKind::kriging ? tree_synthesis_kind : synthesis_kind;
+}
+
 /// A number of the settings; loading makes sure that it is the same.
 template <class Archive, Number T>
 void same_setting(Archive& archive, const std::string& name, T value) {
@@ -101,14 +106,14 @@ void archive_synthesis(Archive& archive, const SynthesisSettings& settings, Engi
 
 FREQSYNTH_INLINE Synthesizer::Synthesizer(SynthesisSettings settings, ByteSource saved) {
   auto implementation = std::make_unique<Implementation>(std::move(settings));
-  detail::StateReader reader(saved, detail::synthesis_kind);
+  detail::StateReader reader(saved, detail::kind_of(implementation->settings));
   implementation->with_engine(
       [&](auto& engine) { detail::archive_synthesis(reader, implementation->settings, engine); });
   implementation_ = implementation.release();
 }
 
 FREQSYNTH_INLINE void Synthesizer::save(ByteSink sink) const {
-  detail::StateWriter writer(sink, detail::synthesis_kind);
+  detail::StateWriter writer(sink, detail::kind_of(implementation_->settings));
   implementation_->with_engine([&](const auto& engine) {
     detail::archive_synthesis(writer, implementation_->settings, engine);
   });

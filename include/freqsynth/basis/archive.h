@@ -38,6 +38,7 @@ struct ArchiveKind {
 };
 
 inline constexpr ArchiveKind synthesis_kind{"saved synthesis", "SYNT", 1};
+inline constexpr ArchiveKind tree_synthesis_kind{"saved synthesis by kriging", "TREE", 1};
 inline constexpr ArchiveKind image_kind{"saved frequency image", "IMAG", 1};
 
 /// Unsigned integer of the size of a number.

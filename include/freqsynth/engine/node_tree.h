@@ -157,7 +157,10 @@ class NodeTree {
     if (index < node.samples) return true;
     return index < corners ? ((node.held_corners >> index) & 1) != 0 : index < node.held;
   }
+  friend struct TreeArchive;
+
   bool find_next(std::uint32_t leaf);
+  std::uint32_t add_quadrants(std::uint32_t parent);
   void hand_down(std::uint32_t parent, std::size_t quadrant, std::size_t count);
   void keep_for_others(std::uint32_t parent, std::size_t index);
   void set_scale(std::uint32_t leaf);

@@ -187,23 +187,31 @@ inline std::size_t NodeTree::advance(std::uint32_t leaf) {
 inline void NodeTree::split(std::uint32_t leaf, std::size_t limit) {
   const std::size_t count = NodePositions::handed_down(nodes_[leaf].samples);
   FREQSYNTH_ASSERT(nodes_[leaf].leaf() && count != 0 && nodes_[leaf].depth < deepest);
+  const std::uint32_t first = add_quadrants(leaf);
+  for (std::uint32_t k = 0; k < 4; ++k) {
+    nodes_[first + k].limit = static_cast<std::uint16_t>(std::max(limit, count));
+    hand_down(leaf, k, count);
+  }
+  store_.give_back(nodes_[leaf].chunk);
+  for (std::uint32_t k = 0; k < 4; ++k) advance(first + k);
+}
+
+/// Makes a leaf a parent. Its quadrants, of which the first is returned, have nothing yet.
+inline std::uint32_t NodeTree::add_quadrants(std::uint32_t number) {
   const auto first = static_cast<std::uint32_t>(nodes_.size());
   for (std::uint32_t k = 0; k < 4; ++k) {
-    const TreeNode& parent = nodes_[leaf];
+    const TreeNode& parent = nodes_[number];
     TreeNode quadrant;
     quadrant.block = parent.block;
     quadrant.column = static_cast<std::uint16_t>(2 * parent.column + (k & 1));
     quadrant.row = static_cast<std::uint16_t>(2 * parent.row + (k >> 1));
     quadrant.depth = static_cast<std::uint8_t>(parent.depth + 1);
     quadrant.of = static_cast<std::uint8_t>(positions_->quadrant_class(parent.of, k));
-    quadrant.limit = static_cast<std::uint16_t>(std::max(limit, count));
-    quadrant.parent = leaf;
+    quadrant.parent = number;
     nodes_.push_back(quadrant);
   }
-  for (std::uint32_t k = 0; k < 4; ++k) hand_down(leaf, k, count);
-  nodes_[leaf].quadrants = first;
-  store_.give_back(nodes_[leaf].chunk);
-  for (std::uint32_t k = 0; k < 4; ++k) advance(first + k);
+  nodes_[number].quadrants = first;
+  return first;
 }
 
 /// Gives a quadrant what is its own of its parent's samples; nothing of it is taken in yet.

@@ -11,7 +11,6 @@
 #include <cstdint>
 #include <mutex>
 #include <optional>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -22,6 +21,7 @@
 #include "freqsynth/engine/host_desk.h"
 #include "freqsynth/engine/noise.h"
 #include "freqsynth/engine/stop_rule.h"
+#include "freqsynth/engine/tree_archive.h"
 #include "freqsynth/engine/tree_sampler.h"
 #include "freqsynth/engine/tree_settings.h"
 #include "freqsynth/sampler.h"
@@ -51,6 +51,7 @@ class TreeEngine : public HostDesk<TreeEngine> {
 
   /// Other factors, from the next wave on.
   void set_factors(std::vector<float> factors) {
+    if (factors.empty()) factors.assign(grid_.size(), 1.0f);
     const std::unique_lock lock = settled();
     factors_ = std::move(factors);
     ended_.reset();
@@ -68,15 +69,18 @@ class TreeEngine : public HostDesk<TreeEngine> {
     return {sampler_.tree(), noise_ == Noise::present};
   }
 
-  /// Not yet. \throws std::logic_error.
+  /// Saves all that is known, requests that are owed included, into an archive; see TreeArchive.
   template <class Archive>
-  void save(Archive&) const {
-    throw std::logic_error("freqsynth: a tree cannot be saved");
+  void save(Archive& archive) const {
+    const std::unique_lock lock = settled();
+    list_parts(archive, *this);
   }
-  /// Not yet. \throws std::logic_error.
+  /// Loads it, into an engine that is as new. What was owed is handed out again. When it throws,
+  /// the engine must not be used.
   template <class Archive>
-  void load(Archive&) {
-    throw std::logic_error("freqsynth: a tree cannot be saved");
+  void load(Archive& archive) {
+    const std::unique_lock lock = settled();
+    list_parts(archive, *this);
   }
 
  private:
@@ -91,6 +95,8 @@ class TreeEngine : public HostDesk<TreeEngine> {
   void end_of_delivery(std::unique_lock<std::mutex>& lock, const detail::ExecutorRef& executor);
   [[nodiscard]] double share_of_blocks() const;
   void add_slots();
+  template <class Archive, class Self>
+  static void list_parts(Archive& archive, Self& self);
 
   DirectionRule rule_;
   TreeSampler sampler_;

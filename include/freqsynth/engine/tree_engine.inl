@@ -108,4 +108,28 @@ inline double TreeEngine::share_of_blocks() const {
   return most > 0 ? static_cast<double>(stats_.absorbed) / most : 1;
 }
 
+template <class Archive, class Self>
+void TreeEngine::list_parts(Archive& archive, Self& self) {
+  archive.section("ENGN", [&] { list_desk(archive, self); });
+  TreeArchive::sampler(archive, self.sampler_);
+  archive.section("FACT", [&] {
+    bool others = self.factors_.has_value();
+    archive.number(others);
+    if constexpr (Archive::loading) {
+      if (others) self.factors_.emplace(self.grid_.size());
+    }
+    if (others) StateArchive::factors(archive, *self.factors_);
+  });
+  list_pixels(archive, self);
+  archive.section("WAVE", [&] {
+    if constexpr (Archive::loading) {
+      archive.check(self.stats_.absorbed == self.sampler_.stats().absorbed);
+      self.reserve_wave(self.sampler_.planned().size(), 0);
+      self.add_slots();
+    }
+    list_slots(archive, self);
+  });
+  if constexpr (Archive::loading) self.start_clock();
+}
+
 }  // namespace freqsynth

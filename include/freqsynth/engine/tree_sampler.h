@@ -108,6 +108,8 @@ class TreeSampler {
   void run(F&& sampler, std::uint64_t samples);
 
  private:
+  friend struct TreeArchive;
+
   /// Largest magnitude whose squares a node bears.
   static constexpr float most_value = 1e15f;
 

@@ -36,6 +36,8 @@ class TreeSteering {
   void look_at(NodeTree& tree, std::uint32_t leaf);
 
  private:
+  friend struct TreeArchive;
+
   [[nodiscard]] static double mean(std::span<const float> values);
   void set_level(const NodeTree& tree, std::size_t channel);
   void set_factors(NodeTree& tree, std::uint32_t leaf);
