@@ -165,7 +165,8 @@ class FREQSYNTH_API Synthesizer {
   [[nodiscard]] std::vector<float> error_image(const FinishSettings& settings = {}) const;
 
   /// The same of the whole: root of the mean over all pixels, and over channels by their weights.
-  /// It finishes no pixels, and may be asked for now and then while sampling goes on.
+  /// It finishes no pixels, but with RefinerKind::kriging, and may be asked for now and then while
+  /// sampling goes on.
   /// \throws std::invalid_argument when a setting is out of range.
   [[nodiscard]] double predicted_rmse(const FinishSettings& settings = {}) const;
 

@@ -195,7 +195,7 @@ FREQSYNTH_INLINE RunReport Synthesizer::run_erased(const detail::SamplerRef& sam
 }
 
 FREQSYNTH_INLINE FrequencyImage Synthesizer::image_on(const detail::ExecutorRef& executor) const {
-  if (const TreeSynthesis* tree = implementation_->tree()) return tree->image();
+  if (const TreeSynthesis* tree = implementation_->tree()) return tree->image(executor);
   return implementation_->shown(implementation_->with_blocks([&](const auto& engine) {
     return engine.with_snapshot([&](const BlockGrid& grid, const auto& blocks, bool) {
       return fit_image(grid, blocks, executor);
@@ -206,7 +206,8 @@ FREQSYNTH_INLINE FrequencyImage Synthesizer::image_on(const detail::ExecutorRef&
 FREQSYNTH_INLINE FrequencyImage Synthesizer::finished_image_on(
     const FinishSettings& settings, const detail::ExecutorRef& executor) const {
   settings.validate();
-  if (const TreeSynthesis* tree = implementation_->tree()) return tree->finished_image(settings);
+  if (const TreeSynthesis* tree = implementation_->tree())
+    return tree->finished_image(settings, executor);
   return implementation_->shown(implementation_->with_snapshot(
       settings, [&](const BlockGrid& grid, const auto& blocks, const FinishSettings& known,
                     std::span<const std::size_t> features) {
@@ -219,7 +220,7 @@ FREQSYNTH_INLINE void Synthesizer::finish_on(const PixelView& out, const FinishS
                                              const detail::ExecutorRef& executor) const {
   settings.validate();
   if (const TreeSynthesis* tree = implementation_->tree()) {
-    return reconstruct(tree->finished_image(settings), {}, out, executor);
+    return reconstruct(tree->finished_image(settings, executor), {}, out, executor);
   }
   implementation_->with_snapshot(settings, [&](const BlockGrid& grid, const auto& blocks,
                                                const FinishSettings& known,

@@ -12,7 +12,7 @@ namespace freqsynth {
 
 FREQSYNTH_INLINE std::vector<float> Synthesizer::error_image(const FinishSettings& settings) const {
   settings.validate();
-  if (const TreeSynthesis* tree = implementation_->tree()) return tree->error_image();
+  if (const TreeSynthesis* tree = implementation_->tree()) return tree->error_image(settings);
   const std::vector<float> all = implementation_->with_blocks([&](const auto& engine) {
     return engine.with_snapshot([&](const BlockGrid& grid, const auto& blocks, bool noisy) {
       return freqsynth::error_image(grid, blocks, detail::settings_for(settings, noisy));
@@ -37,7 +37,7 @@ inline double Synthesizer::Implementation::predicted_rmse(const BlockGrid& sampl
 
 FREQSYNTH_INLINE double Synthesizer::predicted_rmse(const FinishSettings& settings) const {
   settings.validate();
-  if (const TreeSynthesis* tree = implementation_->tree()) return tree->predicted_rmse();
+  if (const TreeSynthesis* tree = implementation_->tree()) return tree->predicted_rmse(settings);
   return implementation_->with_blocks([&](const auto& engine) {
     return engine.with_snapshot([&](const BlockGrid& grid, const auto& blocks, bool noisy) {
       return implementation_->predicted_rmse(grid, blocks, detail::settings_for(settings, noisy));

@@ -89,9 +89,9 @@ struct TreeSynthesis {
         images(engine.positions()) {
     engine.use_packets(settings.packet);
     engine.use_predictor(
-        [](const void* self, const NodeTree& tree, bool) {
-          return detail::weighted_root(expected_squares(tree),
-                                       static_cast<const TreeSynthesis*>(self)->weights);
+        [](const void* self, const NodeTree& tree, bool noisy) {
+          const auto* own = static_cast<const TreeSynthesis*>(self);
+          return detail::weighted_root(own->images.expected_squares(tree, noisy), own->weights);
         },
         this);
   }
@@ -99,22 +99,31 @@ struct TreeSynthesis {
   TreeSynthesis& operator=(const TreeSynthesis&) = delete;
 
   /// See Synthesizer::finished_image().
-  [[nodiscard]] FrequencyImage finished_image(const FinishSettings& settings) const {
+  [[nodiscard]] FrequencyImage finished_image(const FinishSettings& settings,
+                                              const detail::ExecutorRef& executor) const {
     const auto [tree, noisy] = engine.snapshot();
     const FinishSettings known = detail::settings_for(settings, noisy);
-    return images.image(tree, known.noise == Noise::present, known.keep_positive);
+    return images.image(tree, known.noise == Noise::present, known.keep_positive, executor);
   }
   /// See Synthesizer::image().
-  [[nodiscard]] FrequencyImage image() const { return rough_image(engine.snapshot().first); }
+  [[nodiscard]] FrequencyImage image(const detail::ExecutorRef& executor) const {
+    return rough_image(engine.snapshot().first, executor);
+  }
+  /// The squares of Synthesizer::error_image().
+  [[nodiscard]] std::vector<float> expected_squares(const FinishSettings& settings) const {
+    const auto [tree, noisy] = engine.snapshot();
+    const FinishSettings known = detail::settings_for(settings, noisy);
+    return images.expected_squares(tree, known.noise == Noise::present);
+  }
   /// See Synthesizer::error_image().
-  [[nodiscard]] std::vector<float> error_image() const {
-    std::vector<float> errors = expected_squares(engine.snapshot().first);
+  [[nodiscard]] std::vector<float> error_image(const FinishSettings& settings) const {
+    std::vector<float> errors = expected_squares(settings);
     for (float& error : errors) error = std::sqrt(error);
     return errors;
   }
   /// See Synthesizer::predicted_rmse().
-  [[nodiscard]] double predicted_rmse() const {
-    return detail::weighted_root(expected_squares(engine.snapshot().first), weights);
+  [[nodiscard]] double predicted_rmse(const FinishSettings& settings) const {
+    return detail::weighted_root(expected_squares(settings), weights);
   }
 
   std::vector<float> weights;  // of each channel

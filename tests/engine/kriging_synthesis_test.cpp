@@ -18,6 +18,7 @@
 #include "freqsynth/engine/direction_rule.h"
 #include "freqsynth/engine/thread_pool.h"
 #include "freqsynth/engine/tree_sampler.h"
+#include "freqsynth/image/node_pixels.h"
 #include "freqsynth/image/reconstructor.h"
 #include "freqsynth/image/tree_pictures.h"
 #include "freqsynth/synthesizer.h"
@@ -42,11 +43,11 @@ std::vector<std::uint64_t> counters_of(const Synthesizer& engine) {
 }
 
 /// \param finished  whether the bank's pictures are compared, too, whose lists take a while
-void expect_same(const Synthesizer& one, const Synthesizer& other, bool finished = true) {
+void expect_same(const Synthesizer& one, const Synthesizer& other, bool finished) {
   EXPECT_EQ(counters_of(one), counters_of(other));
   EXPECT_EQ(one.image().save(), other.image().save());
-  EXPECT_EQ(one.error_image(), other.error_image());
   if (!finished) return;
+  EXPECT_EQ(one.error_image(), other.error_image());
   EXPECT_EQ(one.finished_image().save(), other.finished_image().save());
 }
 
@@ -54,7 +55,7 @@ using Calls = std::map<helpers::Point, int>;
 
 /// What TreeSampler and TreePictures make of the same settings.
 TEST(KrigingSynthesis, IsWhatTreeSamplerAndTreePicturesMake) {
-  for (const double samples : {0.3, 1.0, 3.0}) {
+  for (const double samples : {0.5, 3.0}) {
     SynthesisSettings settings = kriging_of(43, 37);
     settings.list.seed = 5;
     settings.wave = 7;
@@ -92,10 +93,8 @@ TEST(KrigingSynthesis, IsWhatTreeSamplerAndTreePicturesMake) {
     for (std::size_t i = 0; i < pixels.size(); ++i) {
       EXPECT_NEAR(made[i], std::max(pixels[i], 0.0f), 2e-5f);
     }
-    const std::vector<float> rough =
-        node_pixels(sampler.tree(), [&](std::uint32_t leaf, std::size_t c, std::span<float> parts) {
-          rough_averages(sampler.tree(), leaf, c, parts);
-        });
+    SerialExecutor serial;
+    const std::vector<float> rough = rough_pixels(sampler.tree(), serial);
     const std::vector<float> preview = reconstruct(engine.image());
     for (std::size_t i = 0; i < rough.size(); ++i) {
       EXPECT_NEAR(preview[i], std::max(rough[i], 0.0f), 2e-5f);
@@ -107,12 +106,12 @@ TEST(KrigingSynthesis, IsWhatTreeSamplerAndTreePicturesMake) {
 }
 
 TEST(KrigingSynthesis, IsTheSameWithSeveralThreadsAndAnyBatch) {
-  SynthesisSettings settings = kriging_of(70, 45, 3);
+  SynthesisSettings settings = kriging_of(40, 29, 3);
   const auto sampler = [](double x, double y) {
     return std::array{picture(x, y), picture(y, x), 0.25f};
   };
   Synthesizer serial(settings);
-  serial.run(sampler, at_samples(5000));
+  serial.run(sampler, at_samples(2500));
   for (const std::size_t threads : {1u, 3u}) {
     ThreadPool pool(threads);
     for (const std::size_t batch : {1u, 13u, 5000u}) {
@@ -124,9 +123,9 @@ TEST(KrigingSynthesis, IsTheSameWithSeveralThreadsAndAnyBatch) {
             ++calls;
             return sampler(x, y);
           },
-          at_samples(5000), pool, KeepGoing{}, batch);
+          at_samples(2500), pool, KeepGoing{}, batch);
       EXPECT_EQ(calls, helpers::calls_of(engine));
-      expect_same(serial, engine);
+      expect_same(serial, engine, threads == 3 && batch == 13);
     }
   }
 }
@@ -140,7 +139,7 @@ TEST(KrigingSynthesis, DoesNotDependOnTheOrderOfDelivery) {
     other.set_stop(synthesis.stop);
     RandomHost(synthesis, 1).run(one);
     RandomHost(synthesis, 2).run(other);
-    expect_same(one, other, number % 6 == 3);
+    expect_same(one, other, number == 3);
     EXPECT_EQ(one.stats().abandoned, other.stats().abandoned);
     EXPECT_EQ(one.stopped(), other.stopped());
     EXPECT_LE(one.stats().samples, synthesis.stop.samples);
@@ -170,7 +169,7 @@ TEST(KrigingSynthesis, ThrowingSamplerLosesNothing) {
     }
     EXPECT_GE(thrown, 8);
     EXPECT_EQ(static_cast<std::uint64_t>(calls - thrown), helpers::calls_of(engine));
-    expect_same(straight, engine);
+    expect_same(straight, engine, batch == 10);
   }
 }
 
@@ -189,7 +188,7 @@ TEST(KrigingSynthesis, CountsAndReportsBadValues) {
   Calls reported;
   for (const BadSample& one : engine.bad_samples()) reported[{one.x, one.y}] = bad[{one.x, one.y}];
   EXPECT_EQ(reported, bad);
-  EXPECT_TRUE(helpers::all_finite(helpers::coefficients_of(engine.finished_image())));
+  EXPECT_TRUE(helpers::all_finite(helpers::coefficients_of(engine.image())));
   // In a channel that does not steer they are no bad samples.
   SynthesisSettings settings = kriging_of(40, 32, 2);
   settings.channel_settings = {{.role = ChannelRole::passive}, {}};
@@ -217,7 +216,7 @@ TEST(KrigingSynthesis, CancelEndsItUntilTheRuleIsSetAnew) {
   engine.run(picture, at_samples(900));
   Synthesizer straight(kriging_of(32, 32));
   straight.run(picture, at_samples(900));
-  expect_same(straight, engine);
+  expect_same(straight, engine, false);
 }
 
 TEST(KrigingSynthesis, NearestChannelsKeepValuesOfSamples) {
@@ -261,6 +260,7 @@ TEST(KrigingSynthesis, ErrorsFallAsTheyAreExpectedTo) {
     EXPECT_NEAR(std::sqrt(sum / static_cast<double>(errors.size())), expected, 1e-6);
     const double rmse = helpers::rmse_of(reconstruct(engine.finished_image()), 64, picture);
     EXPECT_GT(expected, 0.5 * rmse);
+    EXPECT_LT(expected, 3 * rmse);
   }
 }
 

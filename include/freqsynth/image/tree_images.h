@@ -17,7 +17,9 @@
 #include <vector>
 
 #include "freqsynth/basis/config.h"
+#include "freqsynth/basis/float_bits.h"
 #include "freqsynth/basis/node_positions.h"
+#include "freqsynth/engine/executor.h"
 #include "freqsynth/engine/node_tree.h"
 #include "freqsynth/image/frequency_image.h"
 #include "freqsynth/image/node_pixels.h"
@@ -77,29 +79,28 @@ inline double expected_square(const NodeTree& tree, std::uint32_t leaf, std::siz
 }  // namespace detail
 
 /// The image of the prior that steers: a preview (CoefficientMeaning::pixel_average).
-[[nodiscard]] inline FrequencyImage rough_image(const NodeTree& tree) {
-  return detail::image_of(
-      tree,
-      node_pixels(tree,
-                  [&](std::uint32_t leaf, std::size_t channel, std::span<float> parts) {
-                    rough_averages(tree, leaf, channel, parts);
-                  }),
-      true);
+/// \throws std::bad_alloc, and what the executor throws.
+[[nodiscard]] inline FrequencyImage rough_image(const NodeTree& tree,
+                                                detail::ExecutorRef executor = {}) {
+  return detail::image_of(tree, rough_pixels(tree, executor), true);
 }
 
 /// Expected squared errors of the pixels of a tree, row by row, channels interleaved, by the prior
 /// that steers; infinite where a leaf has had fewer than two samples.
-[[nodiscard]] inline std::vector<float> expected_squares(const NodeTree& tree) {
-  return node_pixels(tree, [&](std::uint32_t leaf, std::size_t channel, std::span<float> parts) {
-    // Of leaves smaller than a pixel each has its share of the error, whose square counts.
-    const double share = std::min(1.0, tree.area(leaf));
-    const double square = share * detail::expected_square(tree, leaf, channel);
-    std::fill(parts.begin(), parts.end(), static_cast<float>(square));
-  });
+[[nodiscard]] inline std::vector<float> rough_squares(const NodeTree& tree,
+                                                      detail::ExecutorRef executor = {}) {
+  return node_pixels(tree, executor,
+                     [&](std::uint32_t leaf, std::size_t channel, std::span<float> parts) {
+                       // Of leaves smaller than a pixel each has its share of the error, whose
+                       // square counts.
+                       const double share = std::min(1.0, tree.area(leaf));
+                       const double square = share * detail::expected_square(tree, leaf, channel);
+                       std::fill(parts.begin(), parts.end(), static_cast<float>(square));
+                     });
 }
 
-/// Makes images of trees by a bank of priors; its lists stay for the next one. For any threads: one
-/// waits for another.
+/// Makes images of trees by a bank of priors; its lists, and what it knows of leaves, stay for the
+/// next one. For any threads: one waits for another.
 class TreeImages {
  public:
   /// \param positions  of the trees' nodes; must live as long as this
@@ -108,21 +109,49 @@ class TreeImages {
   /// Pixels of the bank (CoefficientMeaning::pixel_average).
   /// \param noisy          whether values are Monte Carlo estimates
   /// \param keep_positive  see FinishSettings::keep_positive
-  /// \throws std::bad_alloc.
-  [[nodiscard]] FrequencyImage image(const NodeTree& tree, bool noisy, bool keep_positive) {
+  /// \throws std::bad_alloc, and what the executor throws.
+  [[nodiscard]] FrequencyImage image(const NodeTree& tree, bool noisy, bool keep_positive,
+                                     detail::ExecutorRef executor = {}) {
     const std::lock_guard lock(mutex_);
-    std::unique_ptr<TreePictures>& pictures = pictures_[noisy ? 1 : 0];
-    if (pictures == nullptr) {
-      pictures = std::make_unique<TreePictures>(*positions_,
-                                                noisy ? PriorBank::noisy() : PriorBank::exact());
+    return detail::image_of(tree, pictures(noisy).pixels(tree, executor), keep_positive);
+  }
+
+  /// Expected squared errors of these pixels, row by row, channels interleaved: those of the bank,
+  /// shared out among channels as the prior that steers has it. Infinite where a leaf has had fewer
+  /// than two samples. \throws std::bad_alloc.
+  [[nodiscard]] std::vector<float> expected_squares(const NodeTree& tree, bool noisy) {
+    const std::lock_guard lock(mutex_);
+    const std::vector<float> means = pictures(noisy).errors(tree);
+    std::vector<float> squares = rough_squares(tree);
+    const std::size_t channels = tree.channels();
+    for (std::size_t pixel = 0; pixel < means.size(); ++pixel) {
+      const auto own = std::span(squares).subspan(pixel * channels, channels);
+      double sum = 0;
+      for (const float square : own) sum += double{square};
+      if (!detail::is_finite(sum)) continue;
+      const double all = static_cast<double>(channels) * double{means[pixel]};
+      for (float& square : own) {
+        const double share = sum > 0 ? double{square} / sum : 1 / static_cast<double>(channels);
+        square = static_cast<float>(all * share);
+      }
     }
-    return detail::image_of(tree, pictures->pixels(tree), keep_positive);
+    return squares;
   }
 
  private:
+  /// Those of exact values, or of estimates.
+  TreePictures& pictures(bool noisy) {
+    std::unique_ptr<TreePictures>& one = pictures_[noisy ? 1 : 0];
+    if (one == nullptr) {
+      one = std::make_unique<TreePictures>(*positions_,
+                                           noisy ? PriorBank::noisy() : PriorBank::exact());
+    }
+    return *one;
+  }
+
   const NodePositions* positions_;
   std::mutex mutex_;
-  std::array<std::unique_ptr<TreePictures>, 2> pictures_;  // of exact values, of estimates
+  std::array<std::unique_ptr<TreePictures>, 2> pictures_;
 };
 
 }  // namespace freqsynth
