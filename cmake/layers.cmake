@@ -52,7 +52,7 @@ set(FREQSYNTH_LAYERS
   "engine/block_grid.h|where blocks lie, and which of them share points and edges|4.3.1"
   "engine/importance_map.h|what blocks are worth, from a function or an image|4.4"
   "engine/pixel_counts.h|samples of every pixel, for their ordinals|"
-  "engine/nearest_samples.h|the sample nearest to the centre of every pixel, for ids and depth|"
+  "engine/pixel_store.h|what pixels keep of channels without coefficients: the nearest sample, or the mean|"
   "engine/surprise_book.h|how often blocks turn out to be other than they seemed|"
   "engine/state_keeper.h|states of blocks as they were, for a reader, while others change them|"
   "engine/visit_plan.h|some samples of a block at once: the visits of a wave|"

@@ -78,7 +78,7 @@ Share measure_share(const Renderer& renderer, const Job& job, const Channels& ke
   const double sampled = of_thread();
   std::vector<float> pixels(job.width * job.height * (kept.all ? channels - 1 : 3));
   engine.finish({.data = pixels.data(), .width = job.width, .height = job.height});
-  if (kept.all) static_cast<void>(engine.nearest_pixels(depth));
+  if (kept.all) static_cast<void>(engine.channel_pixels(depth));
   const double finished = of_thread();
   const auto count = static_cast<double>(engine.stats().samples + engine.stats().probes);
   return {sampling / count, (sampled - begin - sampling) / count, (finished - sampled) / count};

@@ -56,7 +56,7 @@ template <class Pool>
                  .pixel_stride = channels,
                  .row_stride = static_cast<std::ptrdiff_t>(shown.width * channels)},
                 {}, pool);
-  const std::vector<float> depths = engine.nearest_pixels(depth);
+  const std::vector<float> depths = engine.channel_pixels(depth);
   for (std::size_t p = 0; p < depths.size(); ++p) pixels[p * channels + depth] = depths[p];
   return pixels;
 }

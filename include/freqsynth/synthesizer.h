@@ -174,15 +174,17 @@ class FREQSYNTH_API Synthesizer {
   /// SynthesisSettings::noise says, or as has been seen.
   [[nodiscard]] bool noisy() const;
 
-  /// The pixels of a channel of ChannelRole::nearest, row by row, from the samples of completed
-  /// waves: each one the value of a sample in it, the nearest to its centre. A pixel without a
-  /// sample has the value of the nearest pixel of its block that has one; 0 where the block has
-  /// none.
+  /// The pixels of a channel that images do not have, row by row, from the samples of completed
+  /// waves. Of ChannelRole::nearest: each the value of a sample in it, the nearest to its centre,
+  /// or that of the nearest pixel of its block that has one. Of ChannelRole::mean: each the mean of
+  /// the samples in it, or in the smallest square around it that has one, of 3 x 3 to 17 x 17
+  /// pixels. 0 where there is none. Of requests for a point that is asked for twice the first
+  /// counts.
   /// \param channel  of the samples
   /// \throws std::invalid_argument when the channel has another role.
-  [[nodiscard]] std::vector<float> nearest_pixels(std::size_t channel) const;
+  [[nodiscard]] std::vector<float> channel_pixels(std::size_t channel) const;
 
-  /// Values per sample. Images have those channels that are not ChannelRole::nearest.
+  /// Values per sample. Images have those channels that has_coefficients() is true of.
   [[nodiscard]] std::size_t channels() const { return settings().channels; }
   /// What the images show, in pixels of the whole picture: the blocks that
   /// SynthesisSettings::window has pixels of.

@@ -117,14 +117,13 @@ struct Synthesizer::Implementation {
  private:
   template <class M>
   void build(M measure) {
-    const std::size_t nearest = detail::nearest_channels(settings);
-    BlockStore<R> blocks(
-        R(settings.shared_list, settings.channels - nearest, detail::channel_weights(settings)),
-        grid.size(), settings.max_samples_per_block);
+    BlockStore<R> blocks(R(settings.shared_list, detail::image_channels(settings),
+                           detail::channel_weights(settings)),
+                         grid.size(), settings.max_samples_per_block);
     auto& engine = engines.emplace<Engine<R, M>>(
         grid, std::move(blocks), std::move(measure), detail::factors_of(grid, settings.importance),
-        settings.wave, settings.priority.exploration, settings.seed, settings.noise, nearest,
-        settings.least_samples_per_block);
+        settings.wave, settings.priority.exploration, settings.seed, settings.noise,
+        detail::roles_apart(settings), settings.least_samples_per_block);
     engine.use_packets(settings.packet);
     engine.use_predictor(
         [](const void* self, const BlockGrid& sampled, const BlockSnapshot<R>& now, bool noisy) {
@@ -234,14 +233,13 @@ FREQSYNTH_INLINE bool Synthesizer::noisy() const {
   return implementation_->with_engine([](const auto& engine) { return engine.noisy(); });
 }
 
-FREQSYNTH_INLINE std::vector<float> Synthesizer::nearest_pixels(std::size_t channel) const {
-  const std::size_t all = settings().channels;
-  const std::size_t first = all - detail::nearest_channels(settings());
-  if (channel < first || channel >= all) {
-    detail::refuse("channel is " + std::to_string(channel) + ", not one of role nearest");
+FREQSYNTH_INLINE std::vector<float> Synthesizer::channel_pixels(std::size_t channel) const {
+  const std::size_t first = detail::image_channels(settings());
+  if (channel < first || channel >= settings().channels) {
+    detail::refuse("channel is " + std::to_string(channel) + ", not one of role nearest or mean");
   }
   return implementation_->shown(implementation_->with_engine([&](const auto& engine) {
-    return engine.nearest_pixels(channel - first);
+    return engine.channel_pixels(channel - first);
   }),
                                 1);
 }

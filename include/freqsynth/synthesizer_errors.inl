@@ -18,7 +18,7 @@ FREQSYNTH_INLINE std::vector<float> Synthesizer::error_image(const FinishSetting
       return freqsynth::error_image(grid, blocks, detail::settings_for(settings, noisy));
     });
   });
-  return implementation_->shown(all, channels() - detail::nearest_channels(this->settings()));
+  return implementation_->shown(all, detail::image_channels(this->settings()));
 }
 
 inline double Synthesizer::Implementation::predicted_rmse(const BlockGrid& sampled,

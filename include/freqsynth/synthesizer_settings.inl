@@ -24,9 +24,18 @@ inline std::vector<std::size_t> channels_of(const SynthesisSettings& settings, C
   return channels;
 }
 
-/// Number of channels that have no coefficients: the last ones.
-inline std::size_t nearest_channels(const SynthesisSettings& settings) {
-  return channels_of(settings, ChannelRole::nearest).size();
+/// Roles of the channels that have no coefficients: the last ones.
+inline std::vector<ChannelRole> roles_apart(const SynthesisSettings& settings) {
+  std::vector<ChannelRole> roles;
+  for (const ChannelSettings& one : settings.channel_settings) {
+    if (!has_coefficients(one.role)) roles.push_back(one.role);
+  }
+  return roles;
+}
+
+/// Number of channels that images have: the first ones.
+inline std::size_t image_channels(const SynthesisSettings& settings) {
+  return settings.channels - roles_apart(settings).size();
 }
 
 inline void check_channels(const SynthesisSettings& settings) {
@@ -36,19 +45,20 @@ inline void check_channels(const SynthesisSettings& settings) {
     refuse("channel_settings has " + std::to_string(all.size()) + " entries for " +
            std::to_string(settings.channels) + " channels");
   }
-  const std::size_t first_nearest = all.size() - nearest_channels(settings);
-  if (first_nearest == 0) {
+  const std::size_t fitted = image_channels(settings);
+  if (fitted == 0) {
     refuse("channel_settings has " + std::to_string(all.size()) +
-           " channels of role nearest, not at least one other");
+           " channels of role nearest or mean, not at least one other");
   }
   for (std::size_t c = 0; c < all.size(); ++c) {
-    if (all[c].role > ChannelRole::nearest) {
+    if (all[c].role > ChannelRole::mean) {
       refuse("one of channel_settings' roles is " + std::to_string(static_cast<int>(all[c].role)) +
-             ", not steer, passive, feature or nearest");
+             ", not steer, passive, feature, nearest or mean");
     }
-    if (c < first_nearest && all[c].role == ChannelRole::nearest) {
-      refuse("channel_settings has the role nearest for channel " + std::to_string(c) +
-             ", not after all others");
+    if (c < fitted && !has_coefficients(all[c].role)) {
+      refuse("channel_settings has the role " +
+             std::string(all[c].role == ChannelRole::mean ? "mean" : "nearest") + " for channel " +
+             std::to_string(c) + ", not after all others");
     }
     const float weight = all[c].weight;
     require(all[c].role != ChannelRole::steer ||
@@ -61,7 +71,7 @@ inline void check_channels(const SynthesisSettings& settings) {
 inline std::vector<float> channel_weights(const SynthesisSettings& settings) {
   std::vector<ChannelSettings> all = settings.channel_settings;
   if (all.empty()) all.resize(settings.channels);
-  all.resize(settings.channels - nearest_channels(settings));
+  all.resize(image_channels(settings));
   double sum = 0;
   for (ChannelSettings& one : all) {
     if (one.role != ChannelRole::steer) one.weight = 0;
@@ -109,7 +119,7 @@ inline SynthesisSettings validated(SynthesisSettings settings, std::size_t block
   check_importance(settings.importance, blocks);
   check_channels(settings);
   if (settings.quantization) {
-    settings.quantization->validate(settings.channels - nearest_channels(settings));
+    settings.quantization->validate(image_channels(settings));
     require(settings.priority.steer == Steer::linear, "priority.steer",
             static_cast<double>(settings.priority.steer), "linear, with a quantization target");
   }

@@ -85,7 +85,7 @@ struct TreeSynthesis {
   explicit TreeSynthesis(const SynthesisSettings& settings)
       : weights(detail::channel_weights(settings)),
         engine(detail::tree_settings(settings), settings.importance, settings.seed, settings.noise,
-               detail::nearest_channels(settings)),
+               detail::roles_apart(settings)),
         images(engine.positions()) {
     engine.use_packets(settings.packet);
     engine.use_predictor(

@@ -39,13 +39,13 @@ void copy_pixels(const std::vector<float>& values, const PixelView& view, std::s
   }
 }
 
-/// Channels of a picture: those that are not of role nearest.
+/// Channels of a picture: those with coefficients.
 std::size_t image_channels(const SynthesisSettings& settings) {
   const auto& all = settings.channel_settings;
-  const auto nearest = std::count_if(all.begin(), all.end(), [](const ChannelSettings& channel) {
-    return channel.role == ChannelRole::nearest;
+  const auto apart = std::count_if(all.begin(), all.end(), [](const ChannelSettings& channel) {
+    return !has_coefficients(channel.role);
   });
-  return settings.channels - static_cast<std::size_t>(nearest);
+  return settings.channels - static_cast<std::size_t>(apart);
 }
 
 }  // namespace
@@ -86,12 +86,12 @@ freqsynth_status freqsynth_predicted_rmse(const freqsynth_synthesizer* synthesiz
   });
 }
 
-freqsynth_status freqsynth_nearest_pixels(const freqsynth_synthesizer* synthesizer, size_t channel,
+freqsynth_status freqsynth_channel_pixels(const freqsynth_synthesizer* synthesizer, size_t channel,
                                           const freqsynth_pixels* pixels) {
   return guarded([&] {
     const auto& engine = object(synthesizer, "synthesizer").engine;
     const freqsynth::PixelView view = whole_view(engine, pixels, 1);
-    copy_pixels(engine.nearest_pixels(channel), view, 1);
+    copy_pixels(engine.channel_pixels(channel), view, 1);
   });
 }
 

@@ -14,6 +14,7 @@ static_assert(FREQSYNTH_ROLE_STEER == static_cast<int>(ChannelRole::steer));
 static_assert(FREQSYNTH_ROLE_PASSIVE == static_cast<int>(ChannelRole::passive));
 static_assert(FREQSYNTH_ROLE_FEATURE == static_cast<int>(ChannelRole::feature));
 static_assert(FREQSYNTH_ROLE_NEAREST == static_cast<int>(ChannelRole::nearest));
+static_assert(FREQSYNTH_ROLE_MEAN == static_cast<int>(ChannelRole::mean));
 static_assert(FREQSYNTH_MEASURE_RESIDUAL == static_cast<int>(PriorityMeasure::residual));
 static_assert(FREQSYNTH_MEASURE_CHANGE == static_cast<int>(PriorityMeasure::change));
 static_assert(FREQSYNTH_STEER_LINEAR == static_cast<int>(Steer::linear));
@@ -67,19 +68,19 @@ SynthesisSettings settings_of(const freqsynth_settings* from) {
   settings.max_samples_per_block = c.max_samples_per_block;
   settings.least_samples_per_block = c.least_samples_per_block;
   settings.window = {c.window_x, c.window_y, c.window_width, c.window_height};
-  std::size_t nearest = 0;
+  std::size_t apart = 0;
   if (c.channel_settings != nullptr) {
     for (std::size_t i = 0; i < c.channels; ++i) {
       const freqsynth_channel& channel = c.channel_settings[i];
-      const auto role = enumerator(channel.role, ChannelRole::nearest, "role");
+      const auto role = enumerator(channel.role, ChannelRole::mean, "role");
       settings.channel_settings.push_back({role, channel.weight});
-      nearest += role == ChannelRole::nearest;
+      apart += has_coefficients(role) ? 0 : 1;
     }
   }
   const auto importance = array(c.importance, c.importance_count, "importance");
   settings.importance.assign(importance.begin(), importance.end());
   if (c.quantization_steps != nullptr) {
-    settings.quantization = quantization_of(c, c.channels - nearest);
+    settings.quantization = quantization_of(c, c.channels - apart);
   }
   if (c.shared_list != nullptr) settings.shared_list = c.shared_list->list;
   return settings;

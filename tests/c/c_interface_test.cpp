@@ -105,21 +105,23 @@ TEST(CInterface, ExceptionsOfCallbacksDoNotLeaveIt) {
   EXPECT_STREQ(freqsynth_last_error(), "a fault");
 }
 
-TEST(CInterface, RolesAndNearestPixelsAreThoseOfCxx) {
-  const std::array<freqsynth_channel, 4> channels = {{{FREQSYNTH_ROLE_STEER, 2},
+TEST(CInterface, RolesAndTheirPixelsAreThoseOfCxx) {
+  const std::array<freqsynth_channel, 5> channels = {{{FREQSYNTH_ROLE_STEER, 2},
                                                       {FREQSYNTH_ROLE_PASSIVE, 1},
                                                       {FREQSYNTH_ROLE_FEATURE, 1},
-                                                      {FREQSYNTH_ROLE_NEAREST, 1}}};
-  freqsynth_settings settings = c_settings(4);
+                                                      {FREQSYNTH_ROLE_NEAREST, 1},
+                                                      {FREQSYNTH_ROLE_MEAN, 1}}};
+  freqsynth_settings settings = c_settings(5);
   settings.channel_settings = channels.data();
   const freqsynth_stop_rule rule = c_rule(9000);
   const Engine engine(host_render(&settings, &rule, HOST_RUN_SERIAL));
   ASSERT_NE(engine.handle, nullptr);
-  SynthesisSettings same = cxx_settings(4);
+  SynthesisSettings same = cxx_settings(5);
   same.channel_settings = {{ChannelRole::steer, 2},
                            {ChannelRole::passive, 1},
                            {ChannelRole::feature, 1},
-                           {ChannelRole::nearest, 1}};
+                           {ChannelRole::nearest, 1},
+                           {ChannelRole::mean, 1}};
   Synthesizer expected(same);
   expected.run(sample, {.samples = 9000});
   EXPECT_EQ(picture(engine.handle, 3), reconstruct(expected.finished_image()));
@@ -146,14 +148,18 @@ TEST(CInterface, RolesAndNearestPixelsAreThoseOfCxx) {
   std::vector<float> memory(2 * width * height, -1);
   freqsynth_pixels view = {memory.data() + 2 * width * (height - 1), width, height, 2, 0, 0};
   view.row_stride = -static_cast<std::ptrdiff_t>(2 * width);
-  ASSERT_EQ(freqsynth_nearest_pixels(engine.handle, 3, &view), FREQSYNTH_OK);
-  const std::vector<float> ids = expected.nearest_pixels(3);
+  ASSERT_EQ(freqsynth_channel_pixels(engine.handle, 3, &view), FREQSYNTH_OK);
+  const std::vector<float> ids = expected.channel_pixels(3);
   for (std::size_t p = 0; p < ids.size(); ++p) {
     const std::size_t row = height - 1 - p / width;
     EXPECT_EQ(memory[2 * (row * width + p % width)], ids[p]);
     EXPECT_EQ(memory[2 * (row * width + p % width) + 1], -1);
   }
-  EXPECT_EQ(freqsynth_nearest_pixels(engine.handle, 0, &view), FREQSYNTH_INVALID_ARGUMENT);
+  std::vector<float> means(width * height);
+  const freqsynth_pixels packed = {means.data(), width, height, 0, 0, 0};
+  ASSERT_EQ(freqsynth_channel_pixels(engine.handle, 4, &packed), FREQSYNTH_OK);
+  EXPECT_EQ(means, expected.channel_pixels(4));
+  EXPECT_EQ(freqsynth_channel_pixels(engine.handle, 0, &view), FREQSYNTH_INVALID_ARGUMENT);
 }
 
 TEST(CInterface, ImportanceChangesAsInCxx) {

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { most_channels = 4, vector = 6, portion = 50 };
+enum { most_channels = 5, vector = 6, portion = 50 };
 
 float host_radiance(double x, double y, size_t channel) {
   if (channel == 3) return (float)(floor(x / 5) + 100 * floor(y / 5));

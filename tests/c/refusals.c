@@ -78,7 +78,7 @@ static int null_is_refused(freqsynth_synthesizer* engine) {
   REFUSED(freqsynth_run(engine, NULL, NULL, NULL), "sampler is NULL");
   REFUSED(freqsynth_finish(engine, NULL, NULL, NULL), "pixels is NULL");
   REFUSED(freqsynth_finish(engine, NULL, NULL, &view), "no memory for 8 x 8 pixels");
-  REFUSED(freqsynth_nearest_pixels(engine, 0, NULL), "pixels is NULL");
+  REFUSED(freqsynth_channel_pixels(engine, 0, NULL), "pixels is NULL");
   REFUSED(freqsynth_error_image(engine, NULL, NULL), "pixels is NULL");
   REFUSED(freqsynth_predicted_rmse(engine, NULL, NULL), "rmse is NULL");
   REFUSED(freqsynth_fitted_image(engine, NULL), "image is NULL");
@@ -129,7 +129,7 @@ static int settings_are_refused(void) {
   REFUSED(freqsynth_synthesizer_create(&settings, &engine), "priority_steer is 3");
   settings.priority_steer = 0;
   settings.channel_settings = channels;
-  REFUSED(freqsynth_synthesizer_create(&settings, &engine), "role is 9, not in 0..3");
+  REFUSED(freqsynth_synthesizer_create(&settings, &engine), "role is 9, not in 0..4");
   settings.channel_settings = NULL;
   settings.importance_count = 4;
   REFUSED(freqsynth_synthesizer_create(&settings, &engine), "importance is NULL");
@@ -210,7 +210,7 @@ static int values_are_refused(freqsynth_synthesizer* engine) {
   OK(freqsynth_deliver(engine, requests, 1, values, 0));
   REFUSED(freqsynth_deliver(engine, requests, 2, values, 0), "is not owed");
   OK(freqsynth_give_back(engine, requests + 1, 1));
-  REFUSED(freqsynth_nearest_pixels(engine, 0, &view), "pixels has 8 x 8 pixels, not 32 x 24");
+  REFUSED(freqsynth_channel_pixels(engine, 0, &view), "pixels has 8 x 8 pixels, not 32 x 24");
   REFUSED(freqsynth_error_image(engine, NULL, &view), "pixels has 8 x 8 pixels, not 32 x 24");
   view.width = 4;
   view.pixel_stride = view.row_stride = 3;

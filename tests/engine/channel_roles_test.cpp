@@ -106,7 +106,7 @@ Outcome render(Case one, std::size_t others, ChannelRole role, unsigned kind) {
     one.settings.channels = 3 + others;
     one.settings.channel_settings.assign(3, {});
     one.settings.channel_settings.resize(3 + others, {.role = role, .weight = 7});
-    const bool steps = one.settings.quantization && role != ChannelRole::nearest;
+    const bool steps = one.settings.quantization && has_coefficients(role);
     if (steps) one.settings.quantization = target_of(3 + others);
   }
   Synthesizer engine(one.settings);
@@ -125,7 +125,7 @@ Outcome render(Case one, std::size_t others, ChannelRole role, unsigned kind) {
   engine.run(sampler, one.stop);
   Outcome outcome{.coefficients = {}, .samples = {}, .stats = engine.stats()};
   for (const FrequencyImage& image : {engine.image(), engine.finished_image()}) {
-    EXPECT_EQ(image.channels(), role == ChannelRole::nearest ? 3 : 3 + others);
+    EXPECT_EQ(image.channels(), has_coefficients(role) ? 3 + others : 3);
     for (std::size_t y = 0; y < image.blocks_y(); ++y) {
       for (std::size_t x = 0; x < image.blocks_x(); ++x) {
         outcome.samples.push_back(image.samples(x, y));
@@ -151,6 +151,7 @@ TEST(ChannelRoles, NothingThatRidesAlongChangesABit) {
       }
       if (kind % 3 != 0) continue;
       expect_same(render(one, 2, ChannelRole::nearest, kind), alone, what + ", nearest");
+      expect_same(render(one, 2, ChannelRole::mean, kind), alone, what + ", mean");
     }
   }
 }
@@ -246,7 +247,7 @@ TEST(ChannelRoles, NearestPixelsHaveTheValueSampledNearestToTheirCentre) {
       };
       engine.run(sampler, {.samples_per_pixel = rate});
       for (const std::size_t channel : {1u, 2u}) {
-        EXPECT_EQ(bits_of(engine.nearest_pixels(channel)),
+        EXPECT_EQ(bits_of(engine.channel_pixels(channel)),
                   bits_of(by_rule(samples, width, height, channel)))
             << width << " x " << height << ", " << rate << ", channel " << channel;
       }
@@ -262,7 +263,7 @@ TEST(ChannelRoles, NearestPixelsHaveTheValueSampledNearestToTheirCentre) {
 TEST(ChannelRoles, InfiniteDepthIsWhereItWasSampledNearest) {
   Synthesizer engine(with_features(40, 24));
   engine.run(features, {.samples_per_pixel = 4});
-  const std::vector<float> depth = engine.nearest_pixels(1);
+  const std::vector<float> depth = engine.channel_pixels(1);
   std::size_t infinite = 0;
   for (std::size_t p = 0; p < depth.size(); ++p) {
     const double distance =
@@ -284,7 +285,7 @@ TEST(ChannelRoles, NearestPixelsDoNotDependOnThreadsBatchOrOrder) {
     Synthesizer engine(with_features(61, 45));
     ThreadPool pool(threads);
     engine.run(features, {.samples_per_pixel = 1.5}, pool, KeepGoing{}, batch);
-    return bits_of(engine.nearest_pixels(2));
+    return bits_of(engine.channel_pixels(2));
   };
   const auto expected = render(1024, 1);
   EXPECT_EQ(render(3, 1), expected);
@@ -302,14 +303,14 @@ TEST(ChannelRoles, NearestPixelsDoNotDependOnThreadsBatchOrOrder) {
       }
     }
   }
-  EXPECT_EQ(bits_of(engine.nearest_pixels(2)), expected);
+  EXPECT_EQ(bits_of(engine.channel_pixels(2)), expected);
 }
 
-TEST(ChannelRoles, OnlyThoseOfRoleNearestHaveNearestPixels) {
+TEST(ChannelRoles, OnlyThoseWithoutCoefficientsHavePixelsOfTheirOwn) {
   Synthesizer engine(with_features(16, 16));
-  EXPECT_EQ(engine.nearest_pixels(1), std::vector<float>(256));
+  EXPECT_EQ(engine.channel_pixels(1), std::vector<float>(256));
   for (const std::size_t channel : {std::size_t{0}, std::size_t{3}, ~std::size_t{0}}) {
-    EXPECT_THAT([&] { static_cast<void>(engine.nearest_pixels(channel)); },
+    EXPECT_THAT([&] { static_cast<void>(engine.channel_pixels(channel)); },
                 testing::ThrowsMessage<std::invalid_argument>(
                     testing::HasSubstr("channel is " + std::to_string(channel))));
   }

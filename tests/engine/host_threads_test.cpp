@@ -359,7 +359,7 @@ TEST(Abandon, OfChannelsOfAllRolesIsNoBadSample) {
   EXPECT_GT(engine.stats().abandoned, 50u);
   EXPECT_EQ(engine.stats().bad_samples, 0u);
   EXPECT_EQ(engine.stats().ignored_bad_samples, 0u);
-  for (const float value : engine.nearest_pixels(2)) EXPECT_FALSE(value != value);
+  for (const float value : engine.channel_pixels(2)) EXPECT_FALSE(value != value);
 }
 
 TEST(WaveSize, IsTheMostThatIsHandedOut) {

@@ -229,7 +229,7 @@ TEST(KrigingSynthesis, NearestChannelsKeepValuesOfSamples) {
       },
       at_samples(1200));
   EXPECT_EQ(engine.finished_image().channels(), 1u);
-  for (const float value : engine.nearest_pixels(1)) EXPECT_TRUE(value == 3 || value == 8);
+  for (const float value : engine.channel_pixels(1)) EXPECT_TRUE(value == 3 || value == 8);
 }
 
 TEST(KrigingSynthesis, NoiseIsSeenAndTold) {

@@ -181,12 +181,14 @@ TEST(Noise, TheRarerItIsTheLaterItIsNoticed) {
 }
 
 TEST(Noise, OfChannelsThatDoNotSteerSaysNothing) {
-  SynthesisSettings settings = settings_of(64, 64, 3);
-  settings.channel_settings = {{}, {ChannelRole::passive}, {ChannelRole::nearest}};
+  SynthesisSettings settings = settings_of(64, 64, 4);
+  settings.channel_settings = {
+      {}, {ChannelRole::passive}, {ChannelRole::nearest}, {ChannelRole::mean}};
   Synthesizer engine(settings);
   engine.run(
       [](const Request& request) {
-        return std::array{smooth(request.x, request.y), chance(request), chance(request)};
+        const auto noise = chance(request);
+        return std::array{smooth(request.x, request.y), noise, noise, noise};
       },
       {.samples_per_pixel = 2});
   EXPECT_EQ(engine.stats().differing_probes, 0u);

@@ -42,8 +42,9 @@ struct Busy {
   RandomHost host{synthesis, 1};
 
   Busy() {
-    synthesis.settings = helpers::settings_of(12, 17, 2, 4);
-    synthesis.settings.channel_settings = {{}, {.role = ChannelRole::nearest}};
+    synthesis.settings = helpers::settings_of(12, 17, 3, 4);
+    synthesis.settings.channel_settings = {
+        {}, {.role = ChannelRole::nearest}, {.role = ChannelRole::mean}};
     synthesis.settings.shared_list = SharedInverseList(InverseListSettings());
     synthesis.settings.max_samples_per_block = 200;
     synthesis.noise = 0.3f;

@@ -43,8 +43,8 @@ std::vector<std::uint64_t> numbers_of(const Synthesizer& engine) {
   }
   const std::vector<ChannelSettings>& roles = engine.settings().channel_settings;
   for (std::size_t c = 0; c < roles.size(); ++c) {
-    if (roles[c].role != ChannelRole::nearest) continue;
-    for (const float value : engine.nearest_pixels(c)) {
+    if (has_coefficients(roles[c].role)) continue;
+    for (const float value : engine.channel_pixels(c)) {
       numbers.push_back(std::bit_cast<std::uint32_t>(value));
     }
   }

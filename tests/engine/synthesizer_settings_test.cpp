@@ -282,6 +282,11 @@ TEST(SynthesizerSettings, WrongSettingsAreNamed) {
         s.channel_settings = {{ChannelRole::nearest}, {}};
       },
       "channel_settings has the role nearest for channel", "0");
+  refuses(
+      [](auto& s) {
+        s.channel_settings = {{ChannelRole::mean}, {}};
+      },
+      "channel_settings has the role mean for channel", "0");
   refuses([](auto& s) { s.channel_settings.assign(2, {ChannelRole::nearest}); },
           "channel_settings has", "2");
   refuses([](auto& s) { s.importance = {1, 1}; }, "importance", "2");

@@ -191,7 +191,7 @@ TEST(Wave, RepeatedSlotsComeLastAndAreNoSamples) {
     for (std::uint32_t slot = 0; slot < 5; ++slot) {
       EXPECT_EQ(wave.values(slot)[0], static_cast<float>(slot));
       EXPECT_EQ(wave.values(slot)[1], 7);
-      EXPECT_EQ(wave.nearest(slot)[0], -static_cast<float>(slot));
+      EXPECT_EQ(wave.apart(slot)[0], -static_cast<float>(slot));
     }
     wave.clear();
     EXPECT_EQ(wave.samples() + wave.size() + wave.delivered() + wave.delivered_samples(), 0u);

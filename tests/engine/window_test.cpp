@@ -160,22 +160,27 @@ TEST(Window, HasThePixelsOfTheWholePictureToTheBitUnderUniformSampling) {
   }
 }
 
-TEST(Window, HasTheNearestValuesOfItsPixels) {
-  SynthesisSettings settings = settings_of(60, 44, 2);
-  settings.channel_settings = {{}, {ChannelRole::nearest}};
+TEST(Window, HasTheOwnValuesOfItsPixels) {
+  SynthesisSettings settings = settings_of(60, 44, 3);
+  settings.channel_settings = {{}, {ChannelRole::nearest}, {ChannelRole::mean}};
   settings.window = {17, 9, 20, 35};
   Synthesizer engine(settings);
   engine.run(
       [](double x, double y) {
-        return std::array<double, 2>{1, std::floor(x) + 100 * std::floor(y)};
+        return std::array<double, 3>{1, std::floor(x) + 100 * std::floor(y), x + 100 * y};
       },
       at_samples_per_pixel(8));
   const PixelWindow window = engine.window();
-  const std::vector<float> ids = engine.nearest_pixels(1);
+  const std::vector<float> ids = engine.channel_pixels(1);
   ASSERT_EQ(ids.size(), window.width * window.height);
+  const std::vector<float> means = engine.channel_pixels(2);
+  ASSERT_EQ(means.size(), window.width * window.height);
   for (std::size_t i = 0; i < ids.size(); ++i) {
     const std::size_t x = window.x + i % window.width, y = window.y + i / window.width;
     EXPECT_EQ(ids[i], static_cast<float>(x + 100 * y)) << x << ' ' << y;
+    // Means of some samples within the pixel: no farther from its centre's.
+    const double middle = static_cast<double>(x) + 0.5 + 100 * (static_cast<double>(y) + 0.5);
+    EXPECT_NEAR(double{means[i]}, middle, 50.5) << x << ' ' << y;
   }
 }
 

@@ -73,10 +73,9 @@ inline RandomSynthesis::RandomSynthesis(unsigned number, std::size_t larger) {
       one.role = static_cast<ChannelRole>(random.below(3));
       one.weight = static_cast<float>(random.uniform(0.1, 3));
     }
-    for (std::size_t c = 1; c < settings.channels; ++c) {
-      if (c + 1 == settings.channels && chance(0.5)) {
-        settings.channel_settings[c].role = ChannelRole::nearest;
-      }
+    // The last one, and perhaps the one before it.
+    for (std::size_t c = settings.channels; c-- > 1 && c + 2 >= settings.channels && chance(0.5);) {
+      settings.channel_settings[c].role = chance(0.5) ? ChannelRole::nearest : ChannelRole::mean;
     }
   }
   const std::size_t blocks = (settings.width + 7) / 8 * ((settings.height + 7) / 8);
@@ -101,8 +100,8 @@ inline RandomSynthesis::RandomSynthesis(unsigned number, std::size_t larger) {
     priority.steer = Steer::linear;
     settings.quantization.emplace();
     std::size_t channels = settings.channels;
-    if (!settings.channel_settings.empty()) {
-      channels -= settings.channel_settings.back().role == ChannelRole::nearest ? 1 : 0;
+    for (const ChannelSettings& one : settings.channel_settings) {
+      channels -= has_coefficients(one.role) ? 0 : 1;
     }
     settings.quantization->steps.resize(channels);
     for (auto& steps : settings.quantization->steps) {

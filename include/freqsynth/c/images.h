@@ -94,9 +94,10 @@ FREQSYNTH_C_API freqsynth_status freqsynth_predicted_rmse(const freqsynth_synthe
                                                           const freqsynth_finish_settings* finish,
                                                           double* rmse);
 
-/** The pixels of a channel of FREQSYNTH_ROLE_NEAREST.
+/** The pixels of a channel of FREQSYNTH_ROLE_NEAREST or FREQSYNTH_ROLE_MEAN, see
+ * Synthesizer::channel_pixels().
  * \param pixels  of the size of the picture (of its window); one channel */
-FREQSYNTH_C_API freqsynth_status freqsynth_nearest_pixels(const freqsynth_synthesizer* synthesizer,
+FREQSYNTH_C_API freqsynth_status freqsynth_channel_pixels(const freqsynth_synthesizer* synthesizer,
                                                           size_t channel,
                                                           const freqsynth_pixels* pixels);
 

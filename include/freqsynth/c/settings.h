@@ -26,7 +26,8 @@ enum {
   FREQSYNTH_ROLE_STEER = 0,   /**< its errors decide where samples go */
   FREQSYNTH_ROLE_PASSIVE = 1, /**< it rides along */
   FREQSYNTH_ROLE_FEATURE = 2, /**< as passive, and guides the smoothing of noise */
-  FREQSYNTH_ROLE_NEAREST = 3  /**< never averaged, as ids and depth; after all others */
+  FREQSYNTH_ROLE_NEAREST = 3, /**< never averaged, as ids and depth; after all with coefficients */
+  FREQSYNTH_ROLE_MEAN = 4     /**< means of pixels, at little cost; after all with coefficients */
 };
 
 /** How the worth of a block's next sample is estimated, see PriorityMeasure. */

@@ -19,10 +19,19 @@ enum class ChannelRole : std::uint8_t {
   feature,
   /// For what must not be averaged, such as ids and depth: each pixel has a value that was sampled
   /// in it, the one nearest to its centre, to the bit. It influences nothing else. Any value but
-  /// NaN is usable, infinity as well. Its pixels are those of Synthesizer::nearest_pixels(); it has
+  /// NaN is usable, infinity as well. Its pixels are those of Synthesizer::channel_pixels(); it has
   /// no coefficients.
-  nearest
+  nearest,
+  /// For layers beside the picture that need not be better than plain ones, at a third of what
+  /// `passive` costs: each pixel has the mean of what was sampled in it. It influences nothing
+  /// else. Its pixels are those of Synthesizer::channel_pixels(); it has no coefficients.
+  mean
 };
+
+/// Whether blocks fit channels of a role: these are the channels that images have.
+[[nodiscard]] constexpr bool has_coefficients(ChannelRole role) {
+  return role != ChannelRole::nearest && role != ChannelRole::mean;
+}
 
 /// A channel. `{}` is one that steers.
 struct ChannelSettings {

@@ -27,6 +27,7 @@
 #include "freqsynth/engine/block_measure.h"
 #include "freqsynth/engine/block_snapshot.h"
 #include "freqsynth/engine/block_store.h"
+#include "freqsynth/engine/channel_settings.h"
 #include "freqsynth/engine/channel_units.h"
 #include "freqsynth/engine/edge_cache.h"
 #include "freqsynth/engine/executor.h"
@@ -54,11 +55,11 @@ class Engine : public HostDesk<Engine<R, M>> {
   /// \param exploration  see PrioritySettings::exploration
   /// \param seed         of Request::seed
   /// \param noise        whether `measure` is to be told of noise once it is seen
-  /// \param nearest      channels that come after those of the blocks, see NearestSamples
+  /// \param apart        roles of the channels that come after those of the blocks, see PixelStore
   /// \param first        samples that every block gets before errors decide
   Engine(const BlockGrid& grid, BlockStore<R> blocks, M measure, std::vector<float> factors,
          std::size_t wave, double exploration = 0, std::uint64_t seed = 0,
-         Noise noise = Noise::none, std::size_t nearest = 0, std::size_t first = 0);
+         Noise noise = Noise::none, std::span<const ChannelRole> apart = {}, std::size_t first = 0);
 
   /// Tells the error to expect of finished pixels, from the blocks and whether they are noisy.
   using Predictor = double (*)(const void* context, const BlockGrid& grid,

@@ -13,8 +13,9 @@ namespace freqsynth {
 template <Refiner R, BlockMeasure<R> M>
 Engine<R, M>::Engine(const BlockGrid& grid, BlockStore<R> blocks, M measure,
                      std::vector<float> factors, std::size_t wave, double exploration,
-                     std::uint64_t seed, Noise noise, std::size_t nearest, std::size_t first)
-    : Desk(grid, blocks.refiner().weights(), nearest, noise),
+                     std::uint64_t seed, Noise noise, std::span<const ChannelRole> apart,
+                     std::size_t first)
+    : Desk(grid, blocks.refiner().weights(), apart, noise),
       blocks_(std::move(blocks)),
       cache_(grid, blocks_.refiner().channels()),
       units_(blocks_.refiner().weights()),

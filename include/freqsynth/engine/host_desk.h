@@ -21,12 +21,13 @@
 #include "freqsynth/basis/check.h"
 #include "freqsynth/basis/config.h"
 #include "freqsynth/engine/block_grid.h"
+#include "freqsynth/engine/channel_settings.h"
 #include "freqsynth/engine/error_watch.h"
 #include "freqsynth/engine/executor.h"
-#include "freqsynth/engine/nearest_samples.h"
 #include "freqsynth/engine/noise.h"
 #include "freqsynth/engine/noise_probes.h"
 #include "freqsynth/engine/pixel_counts.h"
+#include "freqsynth/engine/pixel_store.h"
 #include "freqsynth/engine/stop_meter.h"
 #include "freqsynth/engine/stop_rule.h"
 #include "freqsynth/engine/waiting_room.h"
@@ -85,8 +86,8 @@ class HostDesk {
   [[nodiscard]] SynthesisStats stats() const;
   /// The first bad samples, at most 1000.
   [[nodiscard]] std::vector<BadSample> bad_samples() const;
-  /// See NearestSamples::pixels().
-  [[nodiscard]] std::vector<float> nearest_pixels(std::size_t channel) const;
+  /// See PixelStore::pixels().
+  [[nodiscard]] std::vector<float> channel_pixels(std::size_t channel) const;
 
  protected:
   /// Most that bad_samples() returns.
@@ -97,9 +98,10 @@ class HostDesk {
 
   /// \param weights  of each channel of the blocks; those without one make no sample a bad one,
   ///                 unless all are
-  /// \param nearest  channels that come after those, see NearestSamples
+  /// \param apart    roles of the channels that come after those, see PixelStore
   /// \param noise    whether probes tell of noise, or what is known of it
-  HostDesk(const BlockGrid& grid, std::span<const float> weights, std::size_t nearest, Noise noise);
+  HostDesk(const BlockGrid& grid, std::span<const float> weights,
+           std::span<const ChannelRole> apart, Noise noise);
   ~HostDesk() = default;
 
   // All of these run under the lock.
@@ -142,7 +144,7 @@ class HostDesk {
   BlockGrid grid_;
   Wave wave_;
   PixelCounts pixels_;
-  NearestSamples nearest_;
+  PixelStore apart_;  // channels without coefficients
   NoiseProbes probes_;
   Noise noise_;
   StopRule stop_;

@@ -3,19 +3,18 @@
 
 #include <cmath>
 
-#include "freqsynth/basis/float_bits.h"
 #include "freqsynth/engine/host_desk.h"
 #include "freqsynth/engine/host_desk_saved.inl"
 
 namespace freqsynth {
 
 template <class Self>
-HostDesk<Self>::HostDesk(const BlockGrid& grid, std::span<const float> weights, std::size_t nearest,
-                         Noise noise)
+HostDesk<Self>::HostDesk(const BlockGrid& grid, std::span<const float> weights,
+                         std::span<const ChannelRole> apart, Noise noise)
     : grid_(grid),
-      wave_(weights.size(), nearest),
+      wave_(weights.size(), apart.size()),
       pixels_(grid),
-      nearest_(grid, nearest),
+      apart_(grid, apart),
       noise_(noise),
       errors_(grid.size()) {
   stats_.blocks = grid.size();
@@ -75,7 +74,7 @@ void HostDesk<Self>::claim(std::span<const Request> requests) {
 template <class Self>
 void HostDesk<Self>::deliver(std::span<const Request> requests, std::span<const float> values,
                              std::size_t stride, const detail::ExecutorRef& executor) {
-  const std::size_t channels = counts_.size() + nearest_.channels();
+  const std::size_t channels = counts_.size() + apart_.channels();
   const bool packed = stride == 0 || stride == channels;
   if (packed) stride = channels;
   detail::require(stride >= channels, "stride", static_cast<double>(stride),
@@ -230,13 +229,7 @@ template <class Take>
 void HostDesk<Self>::note(std::size_t slot, const BlockGrid::Point& point, Take&& take) {
   const float* values = wave_.values(slot);
   bool bad = false, ignored = false;
-  if (nearest_.channels() > 0) {
-    const float* others = wave_.nearest(slot);
-    nearest_.add(point, others);
-    for (std::size_t c = 0; c < nearest_.channels(); ++c) {
-      ignored = ignored || detail::is_nan(others[c]);
-    }
-  }
+  if (apart_.channels() > 0) ignored = !apart_.add(point, wave_.apart(slot));
   for (std::size_t c = 0; c < counts_.size(); ++c) {
     if (take(c, values[c])) {
       any_usable_ = any_usable_ || counts_[c];
@@ -281,9 +274,9 @@ std::vector<BadSample> HostDesk<Self>::bad_samples() const {
 }
 
 template <class Self>
-std::vector<float> HostDesk<Self>::nearest_pixels(std::size_t channel) const {
+std::vector<float> HostDesk<Self>::channel_pixels(std::size_t channel) const {
   const std::unique_lock lock = self().settled();
-  return nearest_.pixels(channel);
+  return apart_.pixels(channel);
 }
 
 }  // namespace freqsynth

@@ -23,7 +23,7 @@ template <class Self>
 template <class Archive, class Engine>
 void HostDesk<Self>::list_pixels(Archive& archive, Engine& self) {
   archive.section("PIXL", [&] { StateArchive::pixels(archive, self.pixels_); });
-  archive.section("NEAR", [&] { StateArchive::nearest(archive, self.nearest_); });
+  archive.section("NEAR", [&] { StateArchive::apart(archive, self.apart_); });
 }
 
 template <class Self>

@@ -24,9 +24,9 @@
 #include "freqsynth/engine/channel_units.h"
 #include "freqsynth/engine/edge_cache.h"
 #include "freqsynth/engine/exploration.h"
-#include "freqsynth/engine/nearest_samples.h"
 #include "freqsynth/engine/noise_probes.h"
 #include "freqsynth/engine/pixel_counts.h"
+#include "freqsynth/engine/pixel_store.h"
 #include "freqsynth/engine/signal_statistics.h"
 #include "freqsynth/engine/steering.h"
 #include "freqsynth/engine/wave.h"
@@ -227,11 +227,13 @@ struct StateArchive {
     }
   }
 
-  template <class Archive, class Nearest>
-  static void nearest(Archive& archive, Nearest& nearest) {
-    for (auto& kept : nearest.kept_) {
+  template <class Archive, class Store>
+  static void apart(Archive& archive, Store& apart) {
+    for (auto& kept : apart.kept_) {
       archive.number(kept.value);
-      archive.number(kept.distance);
+      archive.number(kept.count_or_distance);
+      // Neither is below 0 or NaN.
+      archive.check(kept.count_or_distance >= 0);
     }
   }
 

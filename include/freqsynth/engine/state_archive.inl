@@ -164,7 +164,7 @@ void StateArchive::wave(Archive& archive, W& wave) {
     archive.check(state <= State::abandoned && state != State::claimed);
     if (state == State::waiting || state == State::owed) continue;
     archive.array(std::span(wave.values_).subspan(i * wave.channels_, wave.channels_));
-    archive.array(std::span(wave.nearest_values_).subspan(i * wave.nearest_, wave.nearest_));
+    archive.array(std::span(wave.apart_values_).subspan(i * wave.apart_, wave.apart_));
   }
   archive.list(wave.returned_, size);
   if constexpr (Archive::loading) {

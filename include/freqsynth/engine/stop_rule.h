@@ -72,11 +72,12 @@ struct SynthesisStats {
   /// sampler is noisy after all; none of many with Noise::present, that it is not.
   std::uint64_t differing_probes = 0;
   std::uint64_t absorbed = 0;  ///< samples taken in by blocks; border samples count for each block
-  /// Samples with a value that is not is_usable_sample() in a channel that steers; or in any that
-  /// is not ChannelRole::nearest, where none steers.
+  /// Samples with a value that is not is_usable_sample() in a channel that steers; or in any with
+  /// coefficients, where none steers.
   std::uint64_t bad_samples = 0;
-  /// Samples with such a value in passive channels only, or with NaN in those of
-  /// ChannelRole::nearest. They are no bad samples: for all other channels they are as good as any.
+  /// Samples with such a value in passive channels and those of
+  /// ChannelRole::mean only, or with NaN in those of ChannelRole::nearest. They are no bad samples:
+  /// for all other channels they are as good as any.
   std::uint64_t ignored_bad_samples = 0;
   /// Requests that were abandoned. They are among `samples` or `probes`, as if they had been
   /// delivered, so that rules and progress count them; but they are no bad samples.

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -35,10 +36,10 @@ class TreeEngine : public HostDesk<TreeEngine> {
   /// \param factors   see TreeSampler::use_factors()
   /// \param seed      of Request::seed
   /// \param noise     Noise::automatic: it is looked for
-  /// \param nearest   channels that come after those of the nodes, see NearestSamples
+  /// \param apart     roles of the channels that come after those of the nodes, see PixelStore
   /// \throws std::invalid_argument like TreeSampler.
   TreeEngine(const TreeSettings& settings, std::vector<float> factors, std::uint64_t seed,
-             Noise noise, std::size_t nearest);
+             Noise noise, std::span<const ChannelRole> apart);
 
   /// Tells the error to expect of pictures of a tree.
   using Predictor = double (*)(const void* context, const NodeTree& tree, bool noisy);

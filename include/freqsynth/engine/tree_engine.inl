@@ -8,9 +8,10 @@
 namespace freqsynth {
 
 inline TreeEngine::TreeEngine(const TreeSettings& settings, std::vector<float> factors,
-                              std::uint64_t seed, Noise noise, std::size_t nearest)
-    : HostDesk(BlockGrid::of(settings.width, settings.height, settings.weights.size() + nearest),
-               settings.weights, nearest, noise),
+                              std::uint64_t seed, Noise noise, std::span<const ChannelRole> apart)
+    : HostDesk(
+          BlockGrid::of(settings.width, settings.height, settings.weights.size() + apart.size()),
+          settings.weights, apart, noise),
       sampler_(settings, &rule_),
       frame_(detail::mix_bits(seed + detail::golden_step)) {
   sampler_.use_factors(std::move(factors));

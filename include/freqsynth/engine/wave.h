@@ -35,9 +35,8 @@ class Wave {
 
   /// Empty, and without room.
   /// \param channels  values of a slot
-  /// \param nearest   more values of a slot, which come after these, are kept apart
-  explicit Wave(std::size_t channels, std::size_t nearest = 0)
-      : channels_(channels), nearest_(nearest) {}
+  /// \param apart     more values of a slot, which come after these, are kept apart
+  explicit Wave(std::size_t channels, std::size_t apart = 0) : channels_(channels), apart_(apart) {}
 
   /// Makes room for `most` slots, and for the values of `known` samples that are known before.
   void reserve(std::size_t most, std::size_t known = 0);
@@ -99,8 +98,8 @@ class Wave {
   }
 
   /// Its other values.
-  [[nodiscard]] const float* nearest(std::size_t slot) const {
-    return nearest_values_.data() + slot * nearest_;
+  [[nodiscard]] const float* apart(std::size_t slot) const {
+    return apart_values_.data() + slot * apart_;
   }
 
   /// Those of the slots of a complete wave that repeat none, `channels` for each.
@@ -128,10 +127,10 @@ class Wave {
     delivered_samples_ += slot < samples_ ? 1 : 0;
   }
 
-  std::size_t channels_, nearest_;
+  std::size_t channels_, apart_;
   std::vector<Slot> slots_;
   std::vector<State> states_;
-  std::vector<float> values_, nearest_values_, known_;
+  std::vector<float> values_, apart_values_, known_;
   std::vector<std::uint32_t> returned_;  // slots that wait again
   std::size_t next_ = 0;                 // first slot that was never handed out
   std::size_t samples_ = 0;
@@ -148,7 +147,7 @@ inline void Wave::reserve(std::size_t most, std::size_t known) {
   states_.reserve(most);
   returned_.reserve(most);
   if (values_.size() < most * channels_) values_.resize(most * channels_);
-  if (nearest_values_.size() < most * nearest_) nearest_values_.resize(most * nearest_);
+  if (apart_values_.size() < most * apart_) apart_values_.resize(most * apart_);
 }
 
 inline void Wave::add(const Slot& slot) {
@@ -193,7 +192,7 @@ inline void Wave::deliver(std::uint32_t slot, const float* values) {
   FREQSYNTH_ASSERT(states_[slot] == State::claimed);
   states_[slot] = State::delivered;
   std::copy_n(values, channels_, values_.data() + slot * channels_);
-  std::copy_n(values + channels_, nearest_, nearest_values_.data() + slot * nearest_);
+  std::copy_n(values + channels_, apart_, apart_values_.data() + slot * apart_);
   count(slot);
 }
 
@@ -203,7 +202,7 @@ inline void Wave::abandon(std::uint32_t slot) {
   // A NaN by its bits, which no compiler takes for impossible.
   const auto none = std::bit_cast<float>(0x7fc00000u);
   std::fill_n(values_.data() + slot * channels_, channels_, none);
-  std::fill_n(nearest_values_.data() + slot * nearest_, nearest_, none);
+  std::fill_n(apart_values_.data() + slot * apart_, apart_, none);
   count(slot);
 }
 
