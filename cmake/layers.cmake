@@ -104,6 +104,7 @@ set(FREQSYNTH_LAYERS
   "image/guided_regression.h|noisy samples, regressed on what is known of each pixel|"
   "image/block_noise.h|steps and levels of blocks that noise explains|"
   "image/smooth_noise.h|noise that is left, smoothed over the whole picture (beyond the paper)|"
+  "image/smoothing_features.h|what guides the smoothing of noise beside the picture itself|"
   "image/block_picture.h|finished blocks as one picture, whose noise is smoothed|"
   "image/error_estimate.h|how far finished pixels of a block are expected to be off|"
   "image/error_image.h|the expected error of every pixel|"

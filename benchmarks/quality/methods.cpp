@@ -26,7 +26,7 @@ double thread_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-enum class Estimate { finished, plain, paper };
+enum class Estimate { finished, means, plain, paper };
 
 /// Samples of the library for so many calls of the sampler, or one less: some are asked for twice.
 std::uint64_t samples_for(std::uint64_t calls) {
@@ -36,13 +36,15 @@ std::uint64_t samples_for(std::uint64_t calls) {
 baselines::Rendering synthesize(const baselines::Radiance& radiance, const baselines::Job& job,
                                 Estimate estimate) {
   // Features ride along where they may be of use.
-  const std::size_t features = estimate == Estimate::finished ? job.features : 0;
+  const bool means = estimate == Estimate::means;
+  const std::size_t features = means || estimate == Estimate::finished ? job.features : 0;
   const std::size_t channels = 3 + features;
   freqsynth::SynthesisSettings settings;
   settings.width = job.width;
   settings.height = job.height;
   settings.channels = channels;
-  settings.channel_settings.assign(channels, {freqsynth::ChannelRole::feature});
+  settings.channel_settings.assign(
+      channels, {means ? freqsynth::ChannelRole::mean_feature : freqsynth::ChannelRole::feature});
   std::fill_n(settings.channel_settings.begin(), 3, freqsynth::ChannelSettings{});
   settings.list.seed = job.seed;
   if (estimate == Estimate::paper) {
@@ -72,7 +74,8 @@ baselines::Rendering synthesize(const baselines::Radiance& radiance, const basel
   const std::vector<float> pixels =
       freqsynth::reconstruct(estimate == Estimate::paper ? engine.image() : engine.finished_image(),
                              {.clamp_negative = !job.noisy});
-  for (std::size_t i = 0; i < pixels.size(); i += channels) {
+  const std::size_t kept = means ? 3 : channels;
+  for (std::size_t i = 0; i < pixels.size(); i += kept) {
     result.pixels.insert(result.pixels.end(), &pixels[i], &pixels[i] + 3);
   }
   return result;
@@ -90,6 +93,8 @@ std::vector<Method> all_methods() {
                    one_per_block, estimate == Estimate::plain});
   };
   add("freqsynth", "this library: the fit and its residuals, finished pixels", Estimate::finished);
+  add("freqsynth-means", "the same, of features the means of pixels only; for noise",
+      Estimate::means);
   add("freqsynth-plain", "the same, finished without features; for noise", Estimate::plain);
   add("freqsynth-paper", "the paper's estimate: the fit alone, Butterworth, pixel means",
       Estimate::paper);

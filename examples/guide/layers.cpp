@@ -56,7 +56,7 @@ static void render(bool premultiplied) {
        .channel_settings = {{}, {}, {}, {}, {nearest}, {nearest}, {mean}}});
   engine.run([=](double x, double y) { return values_of(seen(x, y), premultiplied); },
              {.samples_per_pixel = 4});
-  // Four channels: those of role nearest or mean have no coefficients.
+  // Four channels: the others have no coefficients.
   const std::vector<float> pixels = freqsynth::reconstruct(engine.finished_image());
   const std::vector<float> depth = engine.channel_pixels(4), id = engine.channel_pixels(5),
                            slope = engine.channel_pixels(6);

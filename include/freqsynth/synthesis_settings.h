@@ -63,8 +63,8 @@ struct SynthesisSettings {
   /// max_samples_per_block. In proportion fewer go to blocks that are narrower than 8 x 8 pixels,
   /// or whose importance is below 1. As many as the most: uniform sampling.
   std::size_t least_samples_per_block = 0;
-  /// What each channel is for; empty: all steer, with equal weights. Those of ChannelRole::nearest
-  /// and ChannelRole::mean come after the others, of which there is at least one.
+  /// What each channel is for; empty: all steer, with equal weights. Those without
+  /// has_coefficients() come after the others, of which there is at least one.
   std::vector<ChannelSettings> channel_settings = {};
   /// Factor on the priority of each block, row by row, 0 or in 1e-6..1e6; empty: 1. 0 leaves a
   /// block at its first sample. See importance_map(), and Synthesizer::set_importance().

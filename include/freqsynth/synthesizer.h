@@ -176,7 +176,7 @@ class FREQSYNTH_API Synthesizer {
 
   /// The pixels of a channel that images do not have, row by row, from the samples of completed
   /// waves. Of ChannelRole::nearest: each the value of a sample in it, the nearest to its centre,
-  /// or that of the nearest pixel of its block that has one. Of ChannelRole::mean: each the mean of
+  /// or that of the nearest pixel of its block that has one. Of the others: each the mean of
   /// the samples in it, or in the smallest square around it that has one, of 3 x 3 to 17 x 17
   /// pixels. 0 where there is none. Of requests for a point that is asked for twice the first
   /// counts.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -101,12 +102,16 @@ struct Synthesizer::Implementation {
   /// Calls use(grid, snapshot, settings, features): settings that say whether there is noise.
   template <class Use>
   auto with_snapshot(const FinishSettings& finish, Use&& use) const {
-    const std::vector<std::size_t> features = detail::channels_of(settings, ChannelRole::feature);
+    const std::vector<std::size_t> fitted = detail::channels_of(settings, ChannelRole::feature);
+    const bool any = !detail::channels_of(settings, ChannelRole::mean_feature).empty();
+    std::optional<PixelStore> means;
     return with_blocks([&](const auto& engine) {
       return engine.with_snapshot(
           [&](const BlockGrid& blocks_grid, const auto& blocks, bool noisy) {
+            const SmoothingFeatures features{fitted, means ? &*means : nullptr};
             return use(blocks_grid, blocks, detail::settings_for(finish, noisy), features);
-          });
+          },
+          any ? &means : nullptr);
     });
   }
 
@@ -209,7 +214,7 @@ FREQSYNTH_INLINE FrequencyImage Synthesizer::finished_image_on(
     return tree->finished_image(settings, executor);
   return implementation_->shown(implementation_->with_snapshot(
       settings, [&](const BlockGrid& grid, const auto& blocks, const FinishSettings& known,
-                    std::span<const std::size_t> features) {
+                    const SmoothingFeatures& features) {
         const SharedInverseList& list = implementation_->settings.shared_list;
         return freqsynth::finished_image(grid, blocks, list, known, features, executor);
       }));
@@ -223,7 +228,7 @@ FREQSYNTH_INLINE void Synthesizer::finish_on(const PixelView& out, const FinishS
   }
   implementation_->with_snapshot(settings, [&](const BlockGrid& grid, const auto& blocks,
                                                const FinishSettings& known,
-                                               std::span<const std::size_t> features) {
+                                               const SmoothingFeatures& features) {
     const SharedInverseList& list = implementation_->settings.shared_list;
     freqsynth::finish(grid, blocks, list, known, features, implementation_->shown(), out, executor);
   });
@@ -236,7 +241,7 @@ FREQSYNTH_INLINE bool Synthesizer::noisy() const {
 FREQSYNTH_INLINE std::vector<float> Synthesizer::channel_pixels(std::size_t channel) const {
   const std::size_t first = detail::image_channels(settings());
   if (channel < first || channel >= settings().channels) {
-    detail::refuse("channel is " + std::to_string(channel) + ", not one of role nearest or mean");
+    detail::refuse("channel is " + std::to_string(channel) + ", not one without coefficients");
   }
   return implementation_->shown(implementation_->with_engine([&](const auto& engine) {
     return engine.channel_pixels(channel - first);

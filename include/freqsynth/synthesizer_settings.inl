@@ -38,6 +38,12 @@ inline std::size_t image_channels(const SynthesisSettings& settings) {
   return settings.channels - roles_apart(settings).size();
 }
 
+/// Of a channel without coefficients.
+inline const char* name_of(ChannelRole role) {
+  if (role == ChannelRole::nearest) return "nearest";
+  return role == ChannelRole::mean ? "mean" : "mean_feature";
+}
+
 inline void check_channels(const SynthesisSettings& settings) {
   const std::vector<ChannelSettings>& all = settings.channel_settings;
   if (all.empty()) return;
@@ -48,17 +54,16 @@ inline void check_channels(const SynthesisSettings& settings) {
   const std::size_t fitted = image_channels(settings);
   if (fitted == 0) {
     refuse("channel_settings has " + std::to_string(all.size()) +
-           " channels of role nearest or mean, not at least one other");
+           " channels without coefficients, not at least one other");
   }
   for (std::size_t c = 0; c < all.size(); ++c) {
-    if (all[c].role > ChannelRole::mean) {
+    if (all[c].role > ChannelRole::mean_feature) {
       refuse("one of channel_settings' roles is " + std::to_string(static_cast<int>(all[c].role)) +
-             ", not steer, passive, feature, nearest or mean");
+             ", not steer, passive, feature, nearest, mean or mean_feature");
     }
     if (c < fitted && !has_coefficients(all[c].role)) {
-      refuse("channel_settings has the role " +
-             std::string(all[c].role == ChannelRole::mean ? "mean" : "nearest") + " for channel " +
-             std::to_string(c) + ", not after all others");
+      refuse("channel_settings has the role " + std::string(name_of(all[c].role)) +
+             " for channel " + std::to_string(c) + ", not after all others");
     }
     const float weight = all[c].weight;
     require(all[c].role != ChannelRole::steer ||

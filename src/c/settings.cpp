@@ -15,6 +15,7 @@ static_assert(FREQSYNTH_ROLE_PASSIVE == static_cast<int>(ChannelRole::passive));
 static_assert(FREQSYNTH_ROLE_FEATURE == static_cast<int>(ChannelRole::feature));
 static_assert(FREQSYNTH_ROLE_NEAREST == static_cast<int>(ChannelRole::nearest));
 static_assert(FREQSYNTH_ROLE_MEAN == static_cast<int>(ChannelRole::mean));
+static_assert(FREQSYNTH_ROLE_MEAN_FEATURE == static_cast<int>(ChannelRole::mean_feature));
 static_assert(FREQSYNTH_MEASURE_RESIDUAL == static_cast<int>(PriorityMeasure::residual));
 static_assert(FREQSYNTH_MEASURE_CHANGE == static_cast<int>(PriorityMeasure::change));
 static_assert(FREQSYNTH_STEER_LINEAR == static_cast<int>(Steer::linear));
@@ -72,7 +73,7 @@ SynthesisSettings settings_of(const freqsynth_settings* from) {
   if (c.channel_settings != nullptr) {
     for (std::size_t i = 0; i < c.channels; ++i) {
       const freqsynth_channel& channel = c.channel_settings[i];
-      const auto role = enumerator(channel.role, ChannelRole::mean, "role");
+      const auto role = enumerator(channel.role, ChannelRole::mean_feature, "role");
       settings.channel_settings.push_back({role, channel.weight});
       apart += has_coefficients(role) ? 0 : 1;
     }

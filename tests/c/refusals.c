@@ -129,7 +129,7 @@ static int settings_are_refused(void) {
   REFUSED(freqsynth_synthesizer_create(&settings, &engine), "priority_steer is 3");
   settings.priority_steer = 0;
   settings.channel_settings = channels;
-  REFUSED(freqsynth_synthesizer_create(&settings, &engine), "role is 9, not in 0..4");
+  REFUSED(freqsynth_synthesizer_create(&settings, &engine), "role is 9, not in 0..5");
   settings.channel_settings = NULL;
   settings.importance_count = 4;
   REFUSED(freqsynth_synthesizer_create(&settings, &engine), "importance is NULL");

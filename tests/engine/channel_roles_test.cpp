@@ -148,6 +148,8 @@ TEST(ChannelRoles, NothingThatRidesAlongChangesABit) {
       if (kind % 3 == 1) {
         // Without noise features guide nothing.
         expect_same(render(one, 2, ChannelRole::feature, kind), alone, what + ", feature");
+        expect_same(render(one, 2, ChannelRole::mean_feature, kind), alone,
+                    what + ", mean feature");
       }
       if (kind % 3 != 0) continue;
       expect_same(render(one, 2, ChannelRole::nearest, kind), alone, what + ", nearest");

@@ -75,7 +75,8 @@ inline RandomSynthesis::RandomSynthesis(unsigned number, std::size_t larger) {
     }
     // The last one, and perhaps the one before it.
     for (std::size_t c = settings.channels; c-- > 1 && c + 2 >= settings.channels && chance(0.5);) {
-      settings.channel_settings[c].role = chance(0.5) ? ChannelRole::nearest : ChannelRole::mean;
+      settings.channel_settings[c].role =
+          static_cast<ChannelRole>(static_cast<unsigned>(ChannelRole::nearest) + random.below(3));
     }
   }
   const std::size_t blocks = (settings.width + 7) / 8 * ((settings.height + 7) / 8);

@@ -27,7 +27,8 @@ enum {
   FREQSYNTH_ROLE_PASSIVE = 1, /**< it rides along */
   FREQSYNTH_ROLE_FEATURE = 2, /**< as passive, and guides the smoothing of noise */
   FREQSYNTH_ROLE_NEAREST = 3, /**< never averaged, as ids and depth; after all with coefficients */
-  FREQSYNTH_ROLE_MEAN = 4     /**< means of pixels, at little cost; after all with coefficients */
+  FREQSYNTH_ROLE_MEAN = 4,    /**< means of pixels, at little cost; after all with coefficients */
+  FREQSYNTH_ROLE_MEAN_FEATURE = 5 /**< the same, and guides the smoothing of noise */
 };
 
 /** How the worth of a block's next sample is estimated, see PriorityMeasure. */

@@ -88,8 +88,9 @@ class Engine : public HostDesk<Engine<R, M>> {
   /// Calls use(grid, snapshot, noisy()) with a BlockSnapshot of the blocks after the last complete
   /// wave, while others go on sampling. One such call waits for another. \throws std::bad_alloc,
   /// and what `use` throws.
+  /// \param features  receives before a copy of the channels of ChannelRole::mean_feature
   template <class Use>
-  auto with_snapshot(Use&& use) const;
+  auto with_snapshot(Use&& use, std::optional<PixelStore>* features = nullptr) const;
 
   /// Saves all that is known, requests that are owed included, into an archive; see StateArchive.
   template <class Archive>

@@ -85,10 +85,11 @@ void Engine<R, M>::note(std::size_t number) {
 
 template <Refiner R, BlockMeasure<R> M>
 template <class Use>
-auto Engine<R, M>::with_snapshot(Use&& use) const {
+auto Engine<R, M>::with_snapshot(Use&& use, std::optional<PixelStore>* features) const {
   const std::lock_guard one(snapshot_);
   detail::StateKeeper keeper(blocks_.size(), blocks_.state_size());
   std::unique_lock lock = settled();
+  if (features) features->emplace(apart_.part(ChannelRole::mean_feature));
   const BlockSnapshot<R> snapshot(blocks_, &keeper);
   const bool noisy = noise_ == Noise::present;
   struct Watch {

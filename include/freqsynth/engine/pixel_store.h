@@ -23,11 +23,13 @@ namespace freqsynth {
 class PixelStore {
  public:
   /// No sample yet.
-  /// \param roles  of its channels, each ChannelRole::nearest or ChannelRole::mean
+  /// \param roles  of its channels, none of which has_coefficients()
   PixelStore(const BlockGrid& grid, std::span<const ChannelRole> roles);
 
   /// Number of channels.
-  [[nodiscard]] std::size_t channels() const { return averaged_.size(); }
+  [[nodiscard]] std::size_t channels() const { return roles_.size(); }
+  /// A copy of the channels of a role.
+  [[nodiscard]] PixelStore part(ChannelRole role) const;
 
   /// Takes in the values of a sample, one per channel. Where samples are averaged, those that are
   /// not is_usable_sample() are none; else those that are NaN. A point on the border of pixels lies
@@ -40,9 +42,19 @@ class PixelStore {
   /// * ChannelRole::nearest: the value of the nearest pixel of its block that has one, by their
   ///   centres; of those that are equally near, of the first one, row by row. 0 where there is
   ///   none.
-  /// * ChannelRole::mean: the mean of the samples in the smallest square around it that has one, of
-  ///   3 x 3 to 17 x 17 pixels. 0 where there is none.
+  /// * others: the mean of the samples in the smallest square around it that has one, of 3 x 3 to
+  ///   17 x 17 pixels. 0 where there is none.
   [[nodiscard]] std::vector<float> pixels(std::size_t channel) const;
+
+  /// What some samples have together.
+  struct Sum {
+    double count = 0;  ///< of samples
+    double sum = 0;    ///< of their values
+  };
+  /// The samples of a channel that is averaged in a pixel and in those up to `reach` away along
+  /// both axes.
+  [[nodiscard]] Sum around(std::size_t x, std::size_t y, std::size_t channel,
+                           std::size_t reach) const;
 
  private:
   friend struct StateArchive;
@@ -62,20 +74,39 @@ class PixelStore {
   [[nodiscard]] float nearest(std::size_t x, std::size_t y, std::size_t channel) const;
   [[nodiscard]] float mean(std::size_t x, std::size_t y, std::size_t channel) const;
 
+  [[nodiscard]] bool averaged(std::size_t channel) const {
+    return roles_[channel] != ChannelRole::nearest;
+  }
+
   BlockGrid grid_;
-  std::vector<std::uint8_t> averaged_;  // of each channel: 1 or 0
-  std::vector<Kept> kept_;              // [pixel][channel]
+  std::vector<ChannelRole> roles_;
+  std::vector<Kept> kept_;  // [pixel][channel]
 };
 
 // ------------------------------------------------------------------------------------ definitions
 
 inline PixelStore::PixelStore(const BlockGrid& grid, std::span<const ChannelRole> roles)
-    : grid_(grid) {
-  for (const ChannelRole role : roles) averaged_.push_back(role == ChannelRole::mean ? 1 : 0);
-  kept_.resize(grid.width * grid.height * channels());
+    : grid_(grid),
+      roles_(roles.begin(), roles.end()),
+      kept_(grid.width * grid.height * roles.size()) {
   for (std::size_t i = 0; i < kept_.size(); ++i) {
-    if (averaged_[i % channels()] == 0) kept_[i].count_or_distance = Kept::far;
+    if (!averaged(i % channels())) kept_[i].count_or_distance = Kept::far;
   }
+}
+
+inline PixelStore PixelStore::part(ChannelRole role) const {
+  std::vector<ChannelRole> roles;
+  std::vector<std::size_t> taken;
+  for (std::size_t c = 0; c < channels(); ++c) {
+    if (roles_[c] == role) taken.push_back(c);
+  }
+  roles.assign(taken.size(), role);
+  PixelStore some(grid_, roles);
+  Kept* to = some.kept_.data();
+  for (std::size_t first = 0; first < kept_.size(); first += channels()) {
+    for (const std::size_t c : taken) *to++ = kept_[first + c];
+  }
+  return some;
 }
 
 inline bool PixelStore::add(const BlockGrid::Point& point, const float* values) {
@@ -102,7 +133,7 @@ inline bool PixelStore::add(const BlockGrid::Point& point, const float* values) 
       Kept* pixel = kept_.data() + (y * grid_.width + x) * count;
       for (std::size_t c = 0; c < count; ++c) {
         Kept& own = pixel[c];
-        if (averaged_[c] != 0) {
+        if (averaged(c)) {
           if (!is_usable_sample(values[c])) {
             all = false;
             continue;
@@ -146,19 +177,25 @@ inline float PixelStore::mean(std::size_t x, std::size_t y, std::size_t channel)
   if (own.count_or_distance > 0) return own.value;
   // As far as the samples of a block can be from its pixels.
   for (std::size_t reach = 1; reach <= block_size; ++reach) {
-    double count = 0, sum = 0;
-    const std::size_t right = std::min(x + reach, grid_.width - 1);
-    const std::size_t bottom = std::min(y + reach, grid_.height - 1);
-    for (std::size_t v = y - std::min(y, reach); v <= bottom; ++v) {
-      for (std::size_t u = x - std::min(x, reach); u <= right; ++u) {
-        const Kept& there = kept(u, v, channel);
-        count += double{there.count_or_distance};
-        sum += double{there.count_or_distance} * double{there.value};
-      }
-    }
-    if (count > 0) return static_cast<float>(sum / count);
+    const Sum all = around(x, y, channel, reach);
+    if (all.count > 0) return static_cast<float>(all.sum / all.count);
   }
   return 0;
+}
+
+inline PixelStore::Sum PixelStore::around(std::size_t x, std::size_t y, std::size_t channel,
+                                          std::size_t reach) const {
+  Sum all;
+  const std::size_t right = std::min(x + reach, grid_.width - 1);
+  const std::size_t bottom = std::min(y + reach, grid_.height - 1);
+  for (std::size_t v = y - std::min(y, reach); v <= bottom; ++v) {
+    for (std::size_t u = x - std::min(x, reach); u <= right; ++u) {
+      const Kept& there = kept(u, v, channel);
+      all.count += double{there.count_or_distance};
+      all.sum += double{there.count_or_distance} * double{there.value};
+    }
+  }
+  return all;
 }
 
 inline std::vector<float> PixelStore::pixels(std::size_t channel) const {
@@ -166,7 +203,7 @@ inline std::vector<float> PixelStore::pixels(std::size_t channel) const {
   pixels.reserve(grid_.width * grid_.height);
   for (std::size_t y = 0; y < grid_.height; ++y) {
     for (std::size_t x = 0; x < grid_.width; ++x) {
-      pixels.push_back(averaged_[channel] != 0 ? mean(x, y, channel) : nearest(x, y, channel));
+      pixels.push_back(averaged(channel) ? mean(x, y, channel) : nearest(x, y, channel));
     }
   }
   return pixels;

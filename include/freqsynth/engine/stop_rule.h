@@ -75,9 +75,8 @@ struct SynthesisStats {
   /// Samples with a value that is not is_usable_sample() in a channel that steers; or in any with
   /// coefficients, where none steers.
   std::uint64_t bad_samples = 0;
-  /// Samples with such a value in passive channels and those of
-  /// ChannelRole::mean only, or with NaN in those of ChannelRole::nearest. They are no bad samples:
-  /// for all other channels they are as good as any.
+  /// Samples with such a value only in channels that do not steer, NaN where the role is
+  /// ChannelRole::nearest. They are no bad samples: for all other channels they are as good as any.
   std::uint64_t ignored_bad_samples = 0;
   /// Requests that were abandoned. They are among `samples` or `probes`, as if they had been
   /// delivered, so that rules and progress count them; but they are no bad samples.

@@ -22,6 +22,7 @@
 #include "freqsynth/image/frequency_image.h"
 #include "freqsynth/image/pixel_view.h"
 #include "freqsynth/image/reconstructor.h"
+#include "freqsynth/image/smoothing_features.h"
 #include "freqsynth/image/tile_finisher.h"
 #include "freqsynth/refine/refiner.h"
 
@@ -59,7 +60,7 @@ namespace detail {
 /// Finishes all blocks of a picture with noise, which is smoothed, and puts them into sinks, one
 /// for each thread.
 template <Refiner R, class MakeSink>
-void finish_smoothly(const FinishJob<R>& job, std::span<const std::size_t> features,
+void finish_smoothly(const FinishJob<R>& job, const SmoothingFeatures& features,
                      const ExecutorRef& executor, const MakeSink& make_sink) {
   const TileGrid tiles(job.grid);
   BlockPicture picture(job.grid, job.blocks.refiner().weights(), features);
@@ -80,6 +81,7 @@ void finish_smoothly(const FinishJob<R>& job, std::span<const std::size_t> featu
                       });
     }
   });
+  if (features.means) picture.add_means(*features.means, job.settings.doubt, executor);
   picture.smooth(executor);
   share_work(executor, tiles.size(), [&](WorkPieces& pieces) {
     auto sink = make_sink();
@@ -103,7 +105,7 @@ void finish_smoothly(const FinishJob<R>& job, std::span<const std::size_t> featu
 template <Refiner R, class MakeSink>
 void finish_blocks(const BlockGrid& grid, const BlockSnapshot<R>& blocks,
                    const SharedInverseList& list, const FinishSettings& settings,
-                   std::span<const std::size_t> features, const ExecutorRef& executor,
+                   const SmoothingFeatures& features, const ExecutorRef& executor,
                    const MakeSink& make_sink) {
   settings.validate();
   if (grid.size() == 0) return;
@@ -135,13 +137,13 @@ bool is_positive(const BlockSnapshot<R>& blocks, const FinishSettings& settings,
 
 /// Finished pixels (CoefficientMeaning::pixel_average).
 /// \param list      the one that the blocks were refined with
-/// \param features  channels without a weight that guide the smoothing of noise
+/// \param features  what guides the smoothing of noise
 /// \throws std::invalid_argument when a setting is out of range; what the executor throws.
 template <Refiner R>
 [[nodiscard]] FrequencyImage finished_image(const BlockGrid& grid, const BlockSnapshot<R>& blocks,
                                             const SharedInverseList& list,
                                             const FinishSettings& settings,
-                                            std::span<const std::size_t> features = {},
+                                            const SmoothingFeatures& features = {},
                                             const detail::ExecutorRef& executor = {}) {
   FrequencyImage image(grid.width, grid.height, blocks.channels(),
                        CoefficientMeaning::pixel_average);
@@ -158,7 +160,7 @@ template <Refiner R>
 [[nodiscard]] FrequencyImage finished_image(const BlockGrid& grid, const BlockStore<R>& blocks,
                                             const SharedInverseList& list,
                                             const FinishSettings& settings,
-                                            std::span<const std::size_t> features = {}) {
+                                            const SmoothingFeatures& features = {}) {
   return finished_image(grid, BlockSnapshot<R>(blocks), list, settings, features);
 }
 
@@ -168,7 +170,7 @@ template <Refiner R>
 /// \throws like finished_image() and reconstruct().
 template <Refiner R>
 void finish(const BlockGrid& grid, const BlockSnapshot<R>& blocks, const SharedInverseList& list,
-            const FinishSettings& settings, std::span<const std::size_t> features,
+            const FinishSettings& settings, const SmoothingFeatures& features,
             const PixelWindow& shown, const PixelView& out,
             const detail::ExecutorRef& executor = {}) {
   settings.validate();

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "freqsynth/basis/aligned.h"
@@ -13,10 +14,12 @@
 #include "freqsynth/basis/dct.h"
 #include "freqsynth/engine/block_grid.h"
 #include "freqsynth/engine/executor.h"
+#include "freqsynth/engine/shared_work.h"
 #include "freqsynth/image/lift_negative.h"
 #include "freqsynth/image/noisy_picture.h"
 #include "freqsynth/image/pixel_finisher.h"
 #include "freqsynth/image/smooth_noise.h"
+#include "freqsynth/image/smoothing_features.h"
 #include "freqsynth/refine/refiner.h"
 
 namespace freqsynth {
@@ -27,13 +30,19 @@ namespace detail {
 class BlockPicture {
  public:
   BlockPicture(const BlockGrid& grid, std::span<const float> weights,
-               std::span<const std::size_t> features)
+               const SmoothingFeatures& features)
       : grid_(grid), planes_(weights.size(), none) {
     for (std::size_t c = 0; c < weights.size(); ++c) {
       if (weights[c] > 0) use(c, smoothed_);
     }
-    for (const std::size_t c : features) use(c, features_);
-    const std::size_t channels = smoothed_.size() + features_.size();
+    for (const std::size_t c : features.fitted) use(c, features_);
+    first_mean_ = smoothed_.size() + features_.size();
+    const std::size_t means = features.means ? features.means->channels() : 0;
+    const std::size_t channels = first_mean_ + means;
+    for (std::size_t c = first_mean_; c < channels; ++c) {
+      features_.push_back(c);
+      picture_.seamless.push_back(c);
+    }
     picture_.width = grid.blocks_x * block_size;
     picture_.height = grid.blocks_y * block_size;
     picture_.weights.resize(picture_.width * picture_.height);
@@ -58,6 +67,20 @@ class BlockPicture {
       picture_.weights[pixel] = weights[cell];
       picture_.sums[plane][pixel] = sums[cell];
       picture_.pixels[plane][pixel] = pixels[cell];
+    });
+  }
+
+  /// Takes the features of which pixels keep means, once all blocks are there.
+  void add_means(const PixelStore& store, double doubt, const ExecutorRef& executor) {
+    share_pieces(executor, store.channels(), [&](std::size_t c) {
+      MeanFeature feature = mean_feature(grid_, store, c, doubt);
+      const std::size_t plane = first_mean_ + c;
+      NoisyPicture::Plane& sums = picture_.sums[plane];
+      for (std::size_t i = 0; i < sums.size(); ++i) {
+        sums[i] = feature.means[i] * picture_.weights[i];
+      }
+      picture_.pixels[plane] = std::move(feature.pixels);
+      picture_.variances[plane] = std::move(feature.variances);
     });
   }
 
@@ -111,6 +134,7 @@ class BlockPicture {
   const BlockGrid& grid_;
   std::vector<std::size_t> planes_;               // of each channel
   std::vector<std::size_t> smoothed_, features_;  // planes
+  std::size_t first_mean_ = 0;                    // plane; all after it are means
   NoisyPicture picture_;
 };
 

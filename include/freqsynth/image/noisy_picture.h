@@ -23,6 +23,7 @@ struct NoisyPicture {
   std::vector<Plane> pixels;  ///< of each channel: the finished pixels
   /// Of each channel: the variance of the samples of each block about its fit, blocks row by row.
   std::vector<Plane> variances;
+  std::vector<std::size_t> seamless;  ///< channels whose pixels are not made block by block
 };
 
 }  // namespace freqsynth

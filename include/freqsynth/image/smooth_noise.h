@@ -22,8 +22,8 @@
 namespace freqsynth {
 
 /// Smooths channels of a picture.
-/// \param picture   pixels of `channels` are replaced; those of `features` lose steps on the borders
-///                  of blocks
+/// \param picture   pixels of `channels` are replaced; those of `features` that are not `seamless`
+///                  lose steps on the borders of blocks
 /// \param channels  those that have noise
 /// \param features  those that guide the others, and are to have less noise. The time grows with
 ///                  the square of their number.

@@ -185,9 +185,11 @@ FREQSYNTH_INLINE void smooth_noise_on(NoisyPicture& picture, std::span<const std
   for (const std::size_t channel : channels) sums.push_back(picture.sums[channel].data());
   std::vector<NoisyPicture::Plane> shown;
   for (const std::size_t channel : features) {
-    close_all(channel, feature_border);
+    const auto& seamless = picture.seamless;
+    const bool borders = std::find(seamless.begin(), seamless.end(), channel) == seamless.end();
+    if (borders) close_all(channel, feature_border);
     shown.push_back(picture.pixels[channel]);
-    close_all(channel, guide_border);
+    if (borders) close_all(channel, guide_border);
   }
   std::vector<FeatureSamples> feature_samples;
   std::vector<GuidedRegression::Guide> guides =
