@@ -1,41 +1,47 @@
 // SPDX-License-Identifier: MIT
-// Sampling by a tree of nodes beside the engine of blocks, at equal samples:
-//   freqsynth_tree [--rates 0.25,1,4] [--seeds 1] [--size 256] [--reference 1024]
-//                  [--folder out/references] scene...
-// Prints for each rule of splitting the RMSE against averages of so many jittered samples per
-// pixel, or exact ones, its ratio to that of the engine, and the processor time without that of the
-// scene. References are kept in the folder, if there is one.
+// Pictures by a tree of nodes and a bank of priors, beside Synthesizer and Whitted's subdivision at
+// equal samples:
+//   freqsynth_tree [--rates 0.25,1,4,16] [--size 128] [--seeds 1] [--reference 256]
+//                  [--folder out/references] [--documents docs] [--photographs FOLDER]
+//                  [--fields MEMBERS] [choosing | reporting | SCENE ...]
+// Prints Markdown tables. Errors are those of linear values against averages of so many jittered
+// samples per pixel, or exact ones, which are kept in a folder, if there is one. Five scenes and
+// five pictures are for choosing members, rules and parameters; five and five others, which
+// nothing may be chosen on, are reported (quality/tree_subjects.cpp). --fields: the field cases
+// instead.
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <memory>
 #include <span>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "freqsynth/engine/direction_rule.h"
 #include "freqsynth/engine/thread_pool.h"
-#include "freqsynth/engine/tree_sampler.h"
-#include "freqsynth/image/tree_pictures.h"
 #include "quality/methods.h"
 #include "quality/metrics.h"
 #include "quality/reference.h"
 #include "quality/reference_cache.h"
 #include "quality/scene_radiance.h"
-#include "scenes/scene.h"
+#include "quality/tree_fields.h"
+#include "quality/tree_method.h"
+#include "quality/tree_subjects.h"
 
 namespace {
 
 struct Options {
-  std::vector<double> rates = {0.25, 1, 4};
+  std::vector<double> rates = {0.25, 1, 4, 16};
   std::uint64_t seeds = 1;
-  int size = 256;
-  std::size_t reference = 1024;  // samples per pixel
-  std::string folder;            // of references
-  std::vector<std::string> scenes;
+  int size = 128;
+  std::size_t reference = 256;  // samples per pixel
+  std::string folder;           // of references
+  quality::SubjectFolders folders;
+  std::uint64_t fields = 0;
+  std::vector<std::string> names;
 };
 
 Options options_of(int count, char** arguments) {
@@ -43,7 +49,7 @@ Options options_of(int count, char** arguments) {
   for (int i = 1; i < count; ++i) {
     const std::string name = arguments[i];
     if (name.rfind("--", 0) != 0) {
-      options.scenes.push_back(name);
+      options.names.push_back(name);
       continue;
     }
     if (++i == count) throw std::invalid_argument(name + " needs a value");
@@ -60,32 +66,32 @@ Options options_of(int count, char** arguments) {
       options.reference = std::stoull(value);
     } else if (name == "--folder") {
       options.folder = value;
+    } else if (name == "--documents") {
+      options.folders.documents = value;
+    } else if (name == "--photographs") {
+      options.folders.photographs = value;
+    } else if (name == "--fields") {
+      options.fields = std::stoull(value);
     } else if (name == "--size") {
       options.size = std::stoi(value);
     } else {
       throw std::invalid_argument("no option " + name);
     }
   }
-  if (options.scenes.empty()) options.scenes = {"gradient", "edge", "fan", "chess", "zoneplate"};
+  if (options.names.empty()) options.names = {"choosing", "reporting"};
   return options;
 }
 
-enum class Splits { always, by_direction, where_needed };
-
-baselines::Rendering by_tree(const baselines::Radiance& radiance, const baselines::Job& job,
-                             Splits splits) {
+baselines::Rendering by_tree(const baselines::Radiance& radiance, const baselines::Job& job) {
   freqsynth::TreeSettings settings;
   settings.width = job.width;
   settings.height = job.height;
   settings.seed = job.seed;
   settings.noisy = job.noisy;
-  constexpr double any_gain = 5;
-  freqsynth::DirectionRule rule(
-      splits == Splits::by_direction ? any_gain : freqsynth::DirectionRule::usual_gain);
-  freqsynth::TreeSampler sampler(settings, splits == Splits::always ? nullptr : &rule);
   baselines::Rendering result{job.width, job.height, {}, {}};
   result.samples.resize(job.width * job.height);
-  sampler.run(
+  result.pixels = quality::tree_pixels(
+      settings, job.samples,
       [&](std::span<const freqsynth::Request> requests, std::span<float> values) {
         for (std::size_t i = 0; i < requests.size(); ++i) {
           const freqsynth::Request& request = requests[i];
@@ -93,72 +99,119 @@ baselines::Rendering by_tree(const baselines::Radiance& radiance, const baseline
                    values.subspan(3 * i).first<3>());
           ++result.samples[request.pixel];
         }
-      },
-      job.samples);
-  freqsynth::TreePictures pictures(sampler.tree().positions(), job.noisy
-                                                                   ? freqsynth::PriorBank::noisy()
-                                                                   : freqsynth::PriorBank::exact());
-  result.pixels = pictures.pixels(sampler.tree());
+      });
   for (float& pixel : result.pixels) pixel = pixel > 0 ? pixel : 0;
   return result;
 }
 
-std::vector<quality::Method> methods() {
-  const auto tree = [](Splits splits) {
-    return [splits](const baselines::Radiance& radiance, const baselines::Job& job) {
-      return by_tree(radiance, job, splits);
-    };
-  };
-  return {quality::find_method("freqsynth"),
-          {"tree, always split", "", "", tree(Splits::always)},
-          {"tree, direction", "", "", tree(Splits::by_direction)},
-          {"tree", "", "", tree(Splits::where_needed)}};
-}
+/// What is measured of a method, over all seeds.
+struct Measured {
+  double rmse = 0, seam = 0;
+};
 
-void compare(const Options& options) {
-  const std::vector<quality::Method> all = methods();
-  freqsynth::ThreadPool pool(1);
-  std::printf("%-15s %6s", "scene", "rate");
-  for (const quality::Method& method : all) std::printf(" %24s", method.name.c_str());
-  std::printf("\n");
-  for (const std::string& name : options.scenes) {
-    const auto scene =
-        scenes::make_scene({.name = name, .width = options.size, .height = options.size});
-    const baselines::Radiance radiance = quality::radiance_of(*scene);
-    const auto size = static_cast<std::size_t>(options.size);
-    const std::vector<float> reference =
-        quality::cached_reference(options.folder, name, radiance, quality::pixel_average_of(*scene),
-                                  {size, size, options.reference, 1}, pool, [](double) {})
-            .pixels();
-    const quality::PictureView right{size, size, reference};
-    for (const double rate : options.rates) {
-      std::printf("%-15s %6g", name.c_str(), rate);
-      double first = 0;
-      for (const quality::Method& method : all) {
-        double squares = 0, seconds = 0;
-        for (std::uint64_t seed = 1; seed <= options.seeds; ++seed) {
-          const baselines::Job job =
-              quality::job_of(*scene, size, size, quality::samples_of(rate, size, size), seed);
-          const quality::Run run = quality::run_method(method, radiance, job);
-          const double rmse = quality::rmse({size, size, run.pixels}, right);
-          squares += rmse * rmse / static_cast<double>(options.seeds);
-          seconds += (run.seconds - run.sampler_seconds) / static_cast<double>(options.seeds);
-        }
-        const double rmse = std::sqrt(squares);
-        if (first == 0) first = rmse;
-        std::printf(" %9.3g %7.3f %5.2fs", rmse, rmse / first, seconds);
-        std::fflush(stdout);
+class Measuring {
+ public:
+  explicit Measuring(const Options& options)
+      : options_(options),
+        size_(static_cast<std::size_t>(options.size)),
+        methods_{quality::find_method("freqsynth"),
+                 {"tree", "", "", by_tree},
+                 quality::find_method("whitted")} {}
+
+  /// A table with a row for each scene and rate, and the geometric means.
+  void write_table(const std::vector<std::string>& names) {
+    std::printf(
+        "| scene | at | Synthesizer | tree | tree / Synthesizer | tree / Whitted | seam: "
+        "Synthesizer | tree | reference off by |\n|---|---|---|---|---|---|---|---|---|\n");
+    std::vector<double> engine(options_.rates.size()), whitted(options_.rates.size());
+    std::size_t count = 0;
+    for (const std::string& name : names) {
+      const auto scene = quality::make_subject(name, options_.size, options_.folders);
+      if (scene == nullptr) {
+        std::fprintf(stderr, "%s is left out: its file is not there\n", name.c_str());
+        continue;
       }
-      std::printf("\n");
+      ++count;
+      const quality::Reference reference = quality::cached_reference(
+          options_.folder, name, quality::radiance_of(*scene), quality::pixel_average_of(*scene),
+          {size_, size_, options_.reference, 1}, pool_, [](double) {});
+      const std::vector<float> pixels = reference.pixels();
+      for (std::size_t r = 0; r < options_.rates.size(); ++r) {
+        std::vector<Measured> found;
+        for (const quality::Method& method : methods_) {
+          found.push_back(measure(method, *scene, options_.rates[r], pixels));
+        }
+        std::printf("| %s | %g | %.3g | %.3g | %.3f | %.3f | %.2f | %.2f | %.1g |\n", name.c_str(),
+                    options_.rates[r], found[0].rmse, found[1].rmse, found[1].rmse / found[0].rmse,
+                    found[1].rmse / found[2].rmse, found[0].seam, found[1].seam,
+                    reference.standard_error());
+        std::fflush(stdout);
+        engine[r] += std::log(found[1].rmse / found[0].rmse);
+        whitted[r] += std::log(found[1].rmse / found[2].rmse);
+      }
     }
+    for (std::size_t r = 0; r < options_.rates.size() && count > 1; ++r) {
+      const auto mean = [&](double sum) { return std::exp(sum / static_cast<double>(count)); };
+      std::printf("| *geometric mean* | %g | | | %.3f | %.3f | | | |\n", options_.rates[r],
+                  mean(engine[r]), mean(whitted[r]));
+    }
+    std::printf("\n");
   }
+
+ private:
+  Measured measure(const quality::Method& method, const scenes::Scene& scene, double rate,
+                   const std::vector<float>& right) const {
+    const quality::PictureView reference{size_, size_, right};
+    const auto share = 1 / static_cast<double>(options_.seeds);
+    double squares = 0;
+    Measured result;
+    for (std::uint64_t seed = 1; seed <= options_.seeds; ++seed) {
+      const baselines::Job job =
+          quality::job_of(scene, size_, size_, quality::samples_of(rate, size_, size_), seed);
+      const quality::Run run = quality::run_method(method, quality::radiance_of(scene), job);
+      const quality::PictureView picture{size_, size_, run.pixels};
+      const double rmse = quality::rmse(picture, reference);
+      squares += share * rmse * rmse;
+      result.seam += share * quality::seam_visibility(picture, reference);
+    }
+    result.rmse = std::sqrt(squares);
+    return result;
+  }
+
+  const Options& options_;
+  std::size_t size_;
+  std::vector<quality::Method> methods_;
+  freqsynth::ThreadPool pool_{1};
+};
+
+void write_tables(const Options& options) {
+  Measuring measuring(options);
+  std::vector<std::string> others;
+  for (const std::string& name : options.names) {
+    if (name != "choosing" && name != "reporting") {
+      others.push_back(name);
+      continue;
+    }
+    std::vector<std::string> names;
+    for (const quality::TreeSubject& subject : quality::tree_subjects()) {
+      if (subject.choosing == (name == "choosing")) names.emplace_back(subject.name);
+    }
+    std::printf("For %s, %d x %d pixels:\n\n", name.c_str(), options.size, options.size);
+    measuring.write_table(names);
+  }
+  if (!others.empty()) measuring.write_table(others);
 }
 
 }  // namespace
 
 int main(int count, char** arguments) {
   try {
-    compare(options_of(count, arguments));
+    const Options options = options_of(count, arguments);
+    if (options.fields > 0) {
+      quality::write_tree_fields(options.fields, stdout);
+    } else {
+      write_tables(options);
+    }
   } catch (const std::exception& error) {
     std::fprintf(stderr, "freqsynth_tree: %s\n", error.what());
     return EXIT_FAILURE;
