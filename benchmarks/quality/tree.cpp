@@ -19,6 +19,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "freqsynth/engine/thread_pool.h"
@@ -82,7 +83,9 @@ Options options_of(int count, char** arguments) {
   return options;
 }
 
-baselines::Rendering by_tree(const baselines::Radiance& radiance, const baselines::Job& job) {
+/// `predicted` receives the error that is expected.
+baselines::Rendering by_tree(const baselines::Radiance& radiance, const baselines::Job& job,
+                             double& predicted) {
   freqsynth::TreeSettings settings;
   settings.width = job.width;
   settings.height = job.height;
@@ -90,7 +93,7 @@ baselines::Rendering by_tree(const baselines::Radiance& radiance, const baseline
   settings.noisy = job.noisy;
   baselines::Rendering result{job.width, job.height, {}, {}};
   result.samples.resize(job.width * job.height);
-  result.pixels = quality::tree_pixels(
+  quality::TreePicture picture = quality::tree_picture(
       settings, job.samples,
       [&](std::span<const freqsynth::Request> requests, std::span<float> values) {
         for (std::size_t i = 0; i < requests.size(); ++i) {
@@ -100,13 +103,15 @@ baselines::Rendering by_tree(const baselines::Radiance& radiance, const baseline
           ++result.samples[request.pixel];
         }
       });
+  predicted = picture.predicted;
+  result.pixels = std::move(picture.pixels);
   for (float& pixel : result.pixels) pixel = pixel > 0 ? pixel : 0;
   return result;
 }
 
 /// What is measured of a method, over all seeds.
 struct Measured {
-  double rmse = 0, seam = 0;
+  double rmse = 0, seam = 0, predicted = 0;
 };
 
 class Measuring {
@@ -115,14 +120,18 @@ class Measuring {
       : options_(options),
         size_(static_cast<std::size_t>(options.size)),
         methods_{quality::find_method("freqsynth"),
-                 {"tree", "", "", by_tree},
+                 {"tree", "", "",
+                  [this](const baselines::Radiance& radiance, const baselines::Job& job) {
+                    return by_tree(radiance, job, predicted_);
+                  }},
                  quality::find_method("whitted")} {}
 
   /// A table with a row for each scene and rate, and the geometric means.
   void write_table(const std::vector<std::string>& names) {
     std::printf(
-        "| scene | at | Synthesizer | tree | tree / Synthesizer | tree / Whitted | seam: "
-        "Synthesizer | tree | reference off by |\n|---|---|---|---|---|---|---|---|---|\n");
+        "| scene | at | Synthesizer | tree | tree / Synthesizer | tree / Whitted | predicted / "
+        "true | seam: "
+        "Synthesizer | tree | reference off by |\n|---|---|---|---|---|---|---|---|---|---|\n");
     std::vector<double> engine(options_.rates.size()), whitted(options_.rates.size());
     std::size_t count = 0;
     for (const std::string& name : names) {
@@ -141,9 +150,10 @@ class Measuring {
         for (const quality::Method& method : methods_) {
           found.push_back(measure(method, *scene, options_.rates[r], pixels));
         }
-        std::printf("| %s | %g | %.3g | %.3g | %.3f | %.3f | %.2f | %.2f | %.1g |\n", name.c_str(),
-                    options_.rates[r], found[0].rmse, found[1].rmse, found[1].rmse / found[0].rmse,
-                    found[1].rmse / found[2].rmse, found[0].seam, found[1].seam,
+        std::printf("| %s | %g | %.3g | %.3g | %.3f | %.3f | %.2f | %.2f | %.2f | %.1g |\n",
+                    name.c_str(), options_.rates[r], found[0].rmse, found[1].rmse,
+                    found[1].rmse / found[0].rmse, found[1].rmse / found[2].rmse,
+                    found[1].predicted / found[1].rmse, found[0].seam, found[1].seam,
                     reference.standard_error());
         std::fflush(stdout);
         engine[r] += std::log(found[1].rmse / found[0].rmse);
@@ -152,7 +162,7 @@ class Measuring {
     }
     for (std::size_t r = 0; r < options_.rates.size() && count > 1; ++r) {
       const auto mean = [&](double sum) { return std::exp(sum / static_cast<double>(count)); };
-      std::printf("| *geometric mean* | %g | | | %.3f | %.3f | | | |\n", options_.rates[r],
+      std::printf("| *geometric mean* | %g | | | %.3f | %.3f | | | | |\n", options_.rates[r],
                   mean(engine[r]), mean(whitted[r]));
     }
     std::printf("\n");
@@ -160,7 +170,7 @@ class Measuring {
 
  private:
   Measured measure(const quality::Method& method, const scenes::Scene& scene, double rate,
-                   const std::vector<float>& right) const {
+                   const std::vector<float>& right) {
     const quality::PictureView reference{size_, size_, right};
     const auto share = 1 / static_cast<double>(options_.seeds);
     double squares = 0;
@@ -172,9 +182,11 @@ class Measuring {
       const quality::PictureView picture{size_, size_, run.pixels};
       const double rmse = quality::rmse(picture, reference);
       squares += share * rmse * rmse;
+      result.predicted += share * predicted_ * predicted_;
       result.seam += share * quality::seam_visibility(picture, reference);
     }
     result.rmse = std::sqrt(squares);
+    result.predicted = std::sqrt(result.predicted);
     return result;
   }
 
@@ -182,6 +194,7 @@ class Measuring {
   std::size_t size_;
   std::vector<quality::Method> methods_;
   freqsynth::ThreadPool pool_{1};
+  double predicted_ = 0;  // of the last picture by the tree
 };
 
 void write_tables(const Options& options) {

@@ -33,7 +33,7 @@ Picture by_tree(const Field& field, double rate, std::uint64_t seed) {
   settings.seed = seed;
   const std::uint64_t samples = field_cases::samples_at(rate, field.width, field.height);
   std::vector<float> pixels =
-      tree_pixels(settings, samples, [&](double x, double y) { return field.value(x, y); });
+      tree_picture(settings, samples, [&](double x, double y) { return field.value(x, y); }).pixels;
   return {field.width, field.height, 1, std::move(pixels), samples};
 }
 

@@ -3,6 +3,7 @@
 /// A picture by the tree and a bank of priors.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -14,18 +15,27 @@
 
 namespace quality {
 
-/// What the tree makes of so many samples of a sampler (freqsynth/sampler.h): pixels, channels
-/// interleaved, row by row.
+/// What the tree makes of samples.
+struct TreePicture {
+  std::vector<float> pixels;  ///< channels interleaved, row by row
+  double predicted = 0;       ///< root mean square of the error that is expected
+};
+
+/// That of so many samples of a sampler (freqsynth/sampler.h).
 template <class F>
-std::vector<float> tree_pixels(const freqsynth::TreeSettings& settings, std::uint64_t samples,
-                               F&& sampler) {
+TreePicture tree_picture(const freqsynth::TreeSettings& settings, std::uint64_t samples,
+                         F&& sampler) {
   freqsynth::DirectionRule rule;
   freqsynth::TreeSampler tree(settings, &rule);
   tree.run(std::forward<F>(sampler), samples);
   freqsynth::TreePictures pictures(tree.tree().positions(), settings.noisy
                                                                 ? freqsynth::PriorBank::noisy()
                                                                 : freqsynth::PriorBank::exact());
-  return pictures.pixels(tree.tree());
+  TreePicture picture{pictures.pixels(tree.tree())};
+  const std::vector<float> errors = pictures.errors(tree.tree());
+  for (const float error : errors) picture.predicted += double{error};
+  picture.predicted = std::sqrt(picture.predicted / static_cast<double>(errors.size()));
+  return picture;
 }
 
 }  // namespace quality

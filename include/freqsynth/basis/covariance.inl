@@ -3,7 +3,9 @@
 
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <numbers>
 
 #include "freqsynth/basis/check.h"
@@ -54,8 +56,12 @@ FREQSYNTH_ROUNDING FREQSYNTH_INLINE double cos_turns(double turns) {
   if (negative) turns = 0.5 - turns;
   const double x = 2 * std::numbers::pi * turns;
   const double square = x * x;
+  constexpr double inverses[] = {1.0 / 2,   1.0 / 12,  1.0 / 30,  1.0 / 56,  1.0 / 90, 1.0 / 132,
+                                 1.0 / 182, 1.0 / 240, 1.0 / 306, 1.0 / 380, 1.0 / 462};
   double sum = 1;
-  for (int k = 22; k > 0; k -= 2) sum = 1 - square * sum / (k * (k - 1));
+  for (std::size_t k = std::size(inverses); k > 0; --k) {
+    sum = 1 - (square * inverses[k - 1]) * sum;
+  }
   return negative ? -sum : sum;
 }
 

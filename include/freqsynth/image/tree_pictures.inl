@@ -147,7 +147,11 @@ inline void TreePictures::grow_lists(const NodeTree& tree,
     }
     const std::size_t rows = all.max_samples() - NodePositions::size + level;
     for (std::size_t member = 0; member < all.size(); ++member) {
-      if (all[member].size() < rows) growths.push_back({&all[member], rows});
+      // Those of waves are made when a leaf needs them.
+      if (!all.is_made(member)) continue;
+      if (all[member].size() < std::min(rows, all[member].positions().size())) {
+        growths.push_back({&all[member], std::min(rows, all[member].positions().size())});
+      }
     }
   }
   detail::execute_all(executor, growths.size(),

@@ -21,6 +21,9 @@ struct BankSettings {
   double temper = 2;
   /// How much of its parent's log posterior a node begins with, 0 to 1.
   double inherit = 0.5;
+  /// Waves are tried on a node whose best other prior exceeds the evidence of white noise by less
+  /// than this for each sample, a natural logarithm, 0 to 100.
+  double badly = 3;
 };
 
 /// A node: what is known of it, and where the result goes.
@@ -61,13 +64,18 @@ class FREQSYNTH_API BankEstimator {
   void weigh_all();
   void weigh(std::size_t member, std::span<const std::uint32_t> which);
   void weigh_directions(const PriorGroup& group);
+  void weigh_waves(const PriorGroup& group);
+  void find_badly_explained();
+  [[nodiscard]] double log_evidence(double squares, std::size_t node, const InnovationList& list,
+                                    std::size_t samples) const;
   void choose();
   void average(std::size_t member);
   [[nodiscard]] double scale_of(std::size_t node, std::size_t member) const;
   void add_variances(std::size_t member);
   void store();
   template <class Done>
-  void innovate(std::size_t member, std::span<const std::uint32_t> which, bool sums, Done done);
+  void innovate(const InnovationList& list, std::span<const std::uint32_t> which,
+                std::size_t at_most, bool sums, Done done);
 
   const BankLists& lists_;
   std::size_t channels_;
@@ -76,16 +84,20 @@ class FREQSYNTH_API BankEstimator {
   // Of the nodes at work, those with the most samples first.
   std::vector<BankNode*> nodes_;
   std::vector<std::uint32_t> all_, some_;
-  std::vector<float> values_;     // of all lanes, sample by sample; a lane is a node's channel
-  std::vector<float> bases_;      // of each lane, what was subtracted
-  std::vector<double> floors_;    // of each node: squares that are rounding
-  std::vector<double> evidence_;  // nodes x members: log posterior
-  std::vector<double> squares_;   // nodes x members: sum of squared innovations
-  std::vector<double> later_;     // of each node: the squares of its later innovations
-  std::vector<double> averages_;  // lanes x averages
-  std::vector<double> errors_;    // nodes x averages: mean squares, and variances
-  std::vector<double> doubts_;    // nodes x averages
-  std::vector<bool> inside_;      // which averages are of the node itself
+  std::vector<float> values_;         // of all lanes, sample by sample; a lane is a node's channel
+  std::vector<float> bases_;          // of each lane, what was subtracted
+  std::vector<double> floors_;        // of each node: squares that are rounding
+  std::vector<double> evidence_;      // nodes x members: log posterior
+  std::vector<double> squares_;       // nodes x members: sum of squared innovations
+  std::vector<double> later_;         // of each node: the squares of its later innovations
+  std::vector<double> best_;          // of each node: the best log evidence so far
+  std::vector<std::uint32_t> badly_;  // nodes that waves are tried on
+  std::vector<double> probes_;        // of these x waves: log evidence
+  std::vector<std::vector<std::uint32_t>> choice_;  // of each wave: the nodes that it may explain
+  std::vector<double> averages_;                    // lanes x averages
+  std::vector<double> errors_;                      // nodes x averages: mean squares, and variances
+  std::vector<double> doubts_;                      // nodes x averages
+  std::vector<bool> inside_;                        // which averages are of the node itself
   double inside_count_ = 0;
   std::size_t lanes_ = 0;
   detail::AlignedVector<float> chunk_, innovations_, sums_;

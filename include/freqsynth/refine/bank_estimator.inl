@@ -34,6 +34,8 @@ FREQSYNTH_INLINE BankEstimator::BankEstimator(const BankLists& lists, std::size_
                   "in 1..1e6");
   detail::require(settings.inherit >= 0 && settings.inherit <= 1, "inherit", settings.inherit,
                   "in 0..1");
+  detail::require(settings.badly >= 0 && settings.badly <= 100, "badly", settings.badly,
+                  "in 0..100");
   const AverageGrid& grid = lists.grid();
   for (std::size_t p = 0; p < grid.count(); ++p) {
     const auto within = [&](std::size_t k) {
@@ -96,22 +98,22 @@ FREQSYNTH_ROUNDING inline void BankEstimator::load(std::span<BankNode> nodes) {
   }
   evidence_.assign(nodes_.size() * lists_.size(), detail::untried);
   squares_.assign(nodes_.size() * lists_.size(), 0);
+  best_.assign(nodes_.size(), detail::untried);
   errors_.assign(nodes_.size() * lists_.grid().count(), 0);
   doubts_.assign(errors_.size(), 0);
   averages_.assign(lanes_ * lists_.grid().count(), 0);
 }
 
-/// Computes innovations of some nodes, and with `sums` their averages. Calls done(node, channel,
-/// sum of squares, lane in the chunk) for each lane.
+/// Computes innovations of some nodes' first samples, and with `sums` their averages. Calls
+/// done(node, channel, sum of squares, lane in the chunk) for each lane.
 template <class Done>
-FREQSYNTH_ROUNDING void BankEstimator::innovate(std::size_t member,
-                                                std::span<const std::uint32_t> which, bool sums,
-                                                Done done) {
+FREQSYNTH_ROUNDING void BankEstimator::innovate(const InnovationList& list,
+                                                std::span<const std::uint32_t> which,
+                                                std::size_t at_most, bool sums, Done done) {
   FREQSYNTH_ROUNDING_BEGIN
   constexpr std::size_t width = detail::lane_count;
   if (which.empty()) return;
-  const InnovationList& list = lists_[member];
-  const std::size_t most = nodes_[which.front()]->count;
+  const std::size_t most = std::min(nodes_[which.front()]->count, at_most);
   list.reserve(most);
   const std::size_t averages = list.grid().count();
   chunk_.resize(width);
@@ -133,7 +135,7 @@ FREQSYNTH_ROUNDING void BankEstimator::innovate(std::size_t member,
     std::fill(chunk_.begin(), chunk_.end(), 0.0f);
     if (sums) std::fill(sums_.begin(), sums_.end(), 0.0f);
     std::size_t active = used;
-    const std::size_t rows = nodes_[from[0] / channels_]->count;
+    const std::size_t rows = std::min(nodes_[from[0] / channels_]->count, at_most);
     for (std::size_t i = 0; i < rows; ++i) {
       while (nodes_[from[active - 1] / channels_]->count <= i) --active;
       const float* values = values_.data() + i * lanes_;
@@ -159,23 +161,30 @@ FREQSYNTH_ROUNDING void BankEstimator::innovate(std::size_t member,
   }
 }
 
+/// Of the first samples of a node, at the scale that makes them most likely.
+FREQSYNTH_ROUNDING inline double BankEstimator::log_evidence(double squares, std::size_t node,
+                                                             const InnovationList& list,
+                                                             std::size_t samples) const {
+  FREQSYNTH_ROUNDING_BEGIN
+  if (samples == 1) return 0;
+  return -0.5 *
+         (static_cast<double>(samples - 1) * detail::log_of(squares + floors_[node] + 1e-60) +
+          list.row(samples - 1).log_determinant);
+}
+
 FREQSYNTH_ROUNDING inline void BankEstimator::weigh(std::size_t member,
                                                     std::span<const std::uint32_t> which) {
   FREQSYNTH_ROUNDING_BEGIN
   const std::size_t members = lists_.size();
-  innovate(member, which, false, [&](std::size_t node, std::size_t, float squares, std::size_t) {
-    squares_[node * members + member] += double{squares};
-  });
+  innovate(lists_[member], which, lists_.max_samples(), false,
+           [&](std::size_t node, std::size_t, float squares, std::size_t) {
+             squares_[node * members + member] += double{squares};
+           });
   for (const std::uint32_t node : which) {
     const BankNode& known = *nodes_[node];
-    const auto differences = static_cast<double>(known.count - 1);
-    // The scale is what makes the samples most likely.
-    double evidence = 0;
-    if (known.count > 1) {
-      const double squares = squares_[node * members + member] + floors_[node] + 1e-60;
-      evidence = -0.5 * (differences * detail::log_of(squares) +
-                         lists_[member].row(known.count - 1).log_determinant);
-    }
+    double evidence =
+        log_evidence(squares_[node * members + member], node, lists_[member], known.count);
+    best_[node] = std::max(best_[node], evidence);
     evidence /= settings_.temper;
     if (known.parent != nullptr && double{known.parent[member]} > detail::untried) {
       evidence += settings_.inherit * double{known.parent[member]};
@@ -188,6 +197,8 @@ FREQSYNTH_INLINE void BankEstimator::weigh_all() {
   for (const PriorGroup& group : lists_.bank().groups()) {
     if (group.directions) {
       weigh_directions(group);
+    } else if (group.waves) {
+      if (lists_.tries_waves()) weigh_waves(group);
     } else {
       for (std::size_t k = 0; k < group.count; ++k) weigh(group.first + k, all_);
     }
@@ -219,3 +230,4 @@ FREQSYNTH_INLINE void BankEstimator::weigh_directions(const PriorGroup& group) {
 }  // namespace freqsynth
 
 #include "freqsynth/refine/bank_estimator_average.inl"
+#include "freqsynth/refine/bank_estimator_waves.inl"

@@ -42,7 +42,7 @@ FREQSYNTH_ROUNDING inline void BankEstimator::average(std::size_t member) {
     if (evidence_[node * members + member] > 0) some_.push_back(node);
   }
   if (some_.empty()) return;
-  innovate(member, some_, true,
+  innovate(lists_[member], some_, lists_.max_samples(), true,
            [&](std::size_t node, std::size_t channel, float, std::size_t lane) {
              const double weight = evidence_[node * members + member];
              double* out = averages_.data() + (node * channels_ + channel) * averages;

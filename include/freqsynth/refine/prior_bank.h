@@ -3,6 +3,7 @@
 /// A bank of priors (basis/covariance.h), and the shared lists of all its members.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <memory>
 #include <span>
@@ -21,7 +22,13 @@ struct PriorGroup {
   /// Whether they are one prior in as many directions, at equal steps of half a turn. Then only
   /// some are tried: every fourth at first, and those beside what explains a node best.
   bool directions = false;
+  /// Whether they oscillate. Then they are tried on nodes that all others explain badly.
+  bool waves = false;
 };
+
+/// Priors that oscillate, with wave vectors on a polar grid: 1 to 6.25 waves per edge of the node,
+/// at steps of 3/4, in directions that are about as far from each other.
+[[nodiscard]] FREQSYNTH_API std::vector<Covariance> wave_priors();
 
 /// The priors that may explain a node. None is right; those that explain the samples best are
 /// averaged.
@@ -30,7 +37,8 @@ class FREQSYNTH_API PriorBank {
   /// None.
   PriorBank() = default;
   /// For functions without noise: four priors from edges to smooth shading and two that are nearly
-  /// polynomials, in all directions alike; long edges and long soft ones in 16 directions each.
+  /// polynomials, in all directions alike; long edges and long soft ones in 16 directions each; and
+  /// wave_priors().
   [[nodiscard]] static PriorBank exact();
   /// For Monte Carlo estimates: edges and smooth shading below noise of a tenth to thirty times
   /// their variance, and edges in 8 directions.
@@ -41,6 +49,9 @@ class FREQSYNTH_API PriorBank {
   /// One more group: a prior in `count` directions, 4 to 64, a power of two.
   /// \throws std::invalid_argument for another count, or like CovarianceFunction.
   void add_directions(const Covariance& covariance, std::size_t count);
+  /// One more group, of priors that oscillate. There must be another one before, and none of these.
+  /// \throws std::invalid_argument when it is not so, or like CovarianceFunction.
+  void add_waves(std::span<const Covariance> waves);
 
   /// All members.
   [[nodiscard]] std::span<const Covariance> members() const { return members_; }
@@ -53,30 +64,63 @@ class FREQSYNTH_API PriorBank {
 };
 
 /// An innovation list for each member of a bank, of the same positions and averages. Lists grow
-/// when they are used, from any thread.
+/// when they are used, from any thread; those of waves are made then.
 class FREQSYNTH_API BankLists {
  public:
+  /// Most samples of a node that waves are tried on: a lattice of 289, and those around it.
+  static constexpr std::size_t wave_samples = 448;
+  /// So many of its samples tell which waves are: a lattice of 81, and those around it.
+  static constexpr std::size_t probe_samples = 176;
+
   /// \throws std::invalid_argument for a bank without members, or like InnovationList.
   BankLists(const PriorBank& bank, std::span<const UnitPoint> positions, const AverageGrid& grid);
+  ~BankLists();
+  BankLists(const BankLists&) = delete;
+  BankLists& operator=(const BankLists&) = delete;
 
   /// The bank.
   [[nodiscard]] const PriorBank& bank() const { return bank_; }
   /// Number of members.
-  [[nodiscard]] std::size_t size() const { return lists_.size(); }
-  /// The list of a member.
+  [[nodiscard]] std::size_t size() const { return size_; }
+  /// The list of a member. Those of waves have `wave_samples` positions at most.
   [[nodiscard]] const InnovationList& operator[](std::size_t member) const {
-    return *lists_[member];
+    return made(lists_[member], member, wave_samples, grid());
   }
+  /// Whether the list of a member has been made. All are but those of waves.
+  [[nodiscard]] bool is_made(std::size_t member) const {
+    return lists_[member].load(std::memory_order_acquire) != nullptr;
+  }
+  /// A list for the first `probe_samples` positions of a wave, for its evidence alone. It takes a
+  /// hundredth of the time to build.
+  [[nodiscard]] const InnovationList& probe(std::size_t member) const {
+    return made(probes_[member], member, probe_samples, {1, 0.5, 0.001});
+  }
+  /// Whether waves are tried: where averages are those of a quarter of the node's edge or less.
+  [[nodiscard]] bool tries_waves() const { return grid().edge <= 0.25; }
   /// The boxes of the averages.
-  [[nodiscard]] const AverageGrid& grid() const { return lists_.front()->grid(); }
+  [[nodiscard]] const AverageGrid& grid() const { return first().grid(); }
   /// Most samples of a node.
-  [[nodiscard]] std::size_t max_samples() const { return lists_.front()->positions().size(); }
+  [[nodiscard]] std::size_t max_samples() const { return first().positions().size(); }
   /// Bytes that the rows built so far take.
   [[nodiscard]] std::size_t memory() const;
 
  private:
+  using Slot = std::atomic<const InnovationList*>;
+
+  [[nodiscard]] const InnovationList& first() const {
+    return *lists_[0].load(std::memory_order_relaxed);
+  }
+  const InnovationList& made(Slot& slot, std::size_t member, std::size_t most,
+                             const AverageGrid& grid) const {
+    const InnovationList* list = slot.load(std::memory_order_acquire);
+    return list != nullptr ? *list : make(slot, member, most, grid);
+  }
+  const InnovationList& make(Slot& slot, std::size_t member, std::size_t most,
+                             const AverageGrid& grid) const;
+
   PriorBank bank_;
-  std::vector<std::unique_ptr<const InnovationList>> lists_;
+  std::size_t size_;
+  std::unique_ptr<Slot[]> lists_, probes_;  // null until they are needed
 };
 
 }  // namespace freqsynth
