@@ -101,6 +101,8 @@ set(FREQSYNTH_LAYERS
   "image/linear_blend.h|linear interpolation between the centres of cells|"
   "image/lone_peaks.h|pixels that one sample has made far brighter than all around (beyond the paper)|"
   "image/window_ranks.h|values of a moving window by their rank|"
+  "image/ranked_blocks.h|what values of blocks usually are in the windows around each|"
+  "image/rare_light.h|light that few samples have, found and handed out evenly (beyond the paper)|"
   "image/guided_regression.h|noisy samples, regressed on what is known of each pixel|"
   "image/block_noise.h|steps and levels of blocks that noise explains|"
   "image/smooth_noise.h|noise that is left, smoothed over the whole picture (beyond the paper)|"

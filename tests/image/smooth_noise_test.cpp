@@ -102,7 +102,7 @@ TEST(PoolLevels, BringsLevelsTogetherThatNoiseHasSetApart) {
   }
   const double before = rms(picture.pixels[0], right);
   const double sum = sum_of(picture.sums[0]);
-  detail::pool_levels(picture, picture.sums[0], picture.pixels[0]);
+  detail::pool_levels(picture, picture.sums[0], picture.sums[0], picture.pixels[0]);
   EXPECT_LT(rms(picture.pixels[0], right), 0.6 * before);
   EXPECT_NEAR(sum_of(picture.pixels[0]), sum, 0.002 * sum);
 }
@@ -112,7 +112,7 @@ TEST(PoolLevels, LeavesLevelsThatSamplesAreSureOf) {
   for (const float noise : {0.0f, 0.1f}) {
     NoisyPicture picture = noisy_picture(128, 128, right, 4, noise, 6);
     picture.pixels[0] = right;
-    detail::pool_levels(picture, picture.sums[0], picture.pixels[0]);
+    detail::pool_levels(picture, picture.sums[0], picture.sums[0], picture.pixels[0]);
     EXPECT_LT(rms(picture.pixels[0], right), 0.004) << noise;
   }
 }
@@ -224,8 +224,10 @@ struct Bernoulli {
 };
 
 /// Mean of the picture over the mean of all samples.
-double light_kept(double p, double rate, std::uint64_t seed) {
-  SynthesisSettings settings{.width = 128, .height = 128, .channels = 1, .noise = Noise::present};
+double light_kept(double p, double rate, std::uint64_t seed, std::size_t width = 128,
+                  std::size_t height = 128) {
+  SynthesisSettings settings{
+      .width = width, .height = height, .channels = 1, .noise = Noise::present};
   settings.seed = seed;
   Synthesizer engine(settings);
   double sum = 0, samples = 0;
@@ -246,13 +248,29 @@ TEST(SmoothNoise, KeepsTheLightOfRareSamples) {
   struct Case {
     double p, rate, least;
   };
-  for (const Case& c : {Case{0.1, 1, 0.98}, Case{0.1, 4, 0.98}, Case{0.1, 16, 0.98},
-                        Case{0.02, 1, 0.95}, Case{0.02, 4, 0.98}, Case{0.005, 4, 0.95}}) {
+  for (const Case& c :
+       {Case{0.1, 1, 0.98}, Case{0.1, 4, 0.98}, Case{0.1, 16, 0.98}, Case{0.02, 1, 0.97},
+        Case{0.02, 4, 0.98}, Case{0.005, 4, 0.95}, Case{0.005, 1, 0.75}}) {
     double kept = 0;
     for (std::uint64_t seed = 0; seed < 4; ++seed) kept += light_kept(c.p, c.rate, seed) / 4;
     EXPECT_GT(kept, c.least) << c.p << " at " << c.rate;
     EXPECT_LT(kept, 1.02) << c.p << " at " << c.rate;
   }
+}
+
+TEST(SmoothNoise, KeepsTheLightOfPicturesOfAnySize) {
+  std::mt19937 random(3);
+  double kept = 0;
+  constexpr int runs = 12;
+  for (int run = 0; run < runs; ++run) {
+    const double p = std::exp(std::uniform_real_distribution(std::log(0.02), 0.0)(random));
+    const double rate = std::uniform_real_distribution(1.0, 4.0)(random);
+    const std::size_t width = 40 + random() % 100, height = 40 + random() % 100;
+    const double one = light_kept(p, rate, random(), width, height);
+    EXPECT_NEAR(one, 1, 0.05) << p << " at " << rate << ", " << width << " x " << height;
+    kept += one / runs;
+  }
+  EXPECT_NEAR(kept, 1, 0.02);
 }
 
 }  // namespace

@@ -30,10 +30,12 @@ FREQSYNTH_API void close_borders(const NoisyPicture& picture, std::span<const fl
 /// light, or was left because it had seen none, has a level that is biased; the sum of all samples
 /// around over their number is not (Wald). Where blocks do differ that is the mean of those with
 /// many samples, so nothing is drawn to it.
-/// \param pixels  of one channel, changed in place
-/// \param sums    of the channel's samples in each pixel
+/// \param pixels    of one channel, changed in place
+/// \param sums      of the channel's samples in each pixel
+/// \param all_sums  the same with light that is added later; it is noise as well
 FREQSYNTH_API void pool_levels(const NoisyPicture& picture, std::span<const float> sums,
-                               std::span<float> pixels, const ExecutorRef& executor = {});
+                               std::span<const float> all_sums, std::span<float> pixels,
+                               const ExecutorRef& executor = {});
 
 }  // namespace detail
 }  // namespace freqsynth

@@ -9,7 +9,7 @@
 
 #include "freqsynth/engine/shared_work.h"
 #include "freqsynth/image/block_noise.h"
-#include "freqsynth/image/window_ranks.h"
+#include "freqsynth/image/ranked_blocks.h"
 
 namespace freqsynth {
 namespace detail {

@@ -12,7 +12,8 @@ class BlockLevels {
  public:
   static constexpr std::size_t reach = 4;
 
-  BlockLevels(const std::vector<BlockResidual>& blocks, std::size_t blocks_x)
+  BlockLevels(const std::vector<BlockResidual>& blocks, const std::vector<BlockResidual>& noise,
+              std::size_t blocks_x)
       : blocks_x_(blocks_x),
         blocks_y_(blocks.size() / blocks_x),
         stride_(blocks_x + 2 * reach),
@@ -20,7 +21,7 @@ class BlockLevels {
         samples_(known_),
         sums_(known_),
         levels_(known_),
-        ranks_(blocks.size(), none) {
+        variances_(known_variances(noise), blocks_x, blocks.size()) {
     for (std::size_t block = 0; block < blocks.size(); ++block) {
       const BlockResidual& one = blocks[block];
       const std::size_t at = block / blocks_x * stride_ + block % blocks_x + reach;
@@ -29,11 +30,6 @@ class BlockLevels {
       known_[at] = 1;
       samples_[at] = one.samples;
       sums_[at] = one.samples * one.level + one.sum;
-      order_.push_back({one.variance(), static_cast<std::uint32_t>(block)});
-    }
-    std::sort(order_.begin(), order_.end());
-    for (std::size_t rank = 0; rank < order_.size(); ++rank) {
-      ranks_[order_[rank].second] = static_cast<std::uint32_t>(rank);
     }
   }
 
@@ -41,8 +37,15 @@ class BlockLevels {
   void corrections(std::size_t row, std::span<double> out) const;
 
  private:
-  static constexpr std::uint32_t none = 0xffffffffu;
-
+  static std::vector<RankedBlocks::Value> known_variances(
+      const std::vector<BlockResidual>& blocks) {
+    std::vector<RankedBlocks::Value> known;
+    for (std::size_t block = 0; block < blocks.size(); ++block) {
+      if (!(blocks[block].sampled > 0)) continue;
+      known.push_back({blocks[block].variance(), static_cast<std::uint32_t>(block)});
+    }
+    return known;
+  }
   /// Calls visit(weight, place) with the place of what is beside a row's first block, for all that
   /// are around.
   template <class Visit>
@@ -56,50 +59,18 @@ class BlockLevels {
       }
     }
   }
-  void usual_variances(std::size_t row, std::span<double> out) const;
 
   std::size_t blocks_x_, blocks_y_, stride_;
   std::vector<double> known_, samples_, sums_, levels_;
-  std::vector<std::pair<double, std::uint32_t>> order_;  // variances and blocks
-  std::vector<std::uint32_t> ranks_;                     // of each block in the order
+  RankedBlocks variances_;
 };
-
-/// Of the variances around, one that most do not exceed: not the mean, for a part of the picture
-/// with far more noise must not speak for the others. 0 where none is known.
-inline void BlockLevels::usual_variances(std::size_t row, std::span<double> out) const {
-  constexpr double usual = 0.65;  // a share of blocks
-  WindowRanks window(order_.size());
-  std::size_t count = 0;
-  const std::size_t top = row - std::min(row, reach);
-  const std::size_t bottom = std::min(row + reach + 1, blocks_y_);
-  const auto visit_column = [&](std::size_t x, auto&& visit) {
-    for (std::size_t v = top; v < bottom; ++v) {
-      const std::uint32_t rank = ranks_[v * blocks_x_ + x];
-      if (rank != none) visit(rank);
-    }
-  };
-  const auto add = [&](std::uint32_t rank) {
-    window.add(rank);
-    ++count;
-  };
-  const auto remove = [&](std::uint32_t rank) {
-    window.remove(rank);
-    --count;
-  };
-  for (std::size_t x = 0; x < std::min(reach, blocks_x_); ++x) visit_column(x, add);
-  for (std::size_t x = 0; x < blocks_x_; ++x) {
-    if (x + reach < blocks_x_) visit_column(x + reach, add);
-    if (x > reach) visit_column(x - reach - 1, remove);
-    out[x] = 0;
-    if (count == 0) continue;
-    const auto place = static_cast<std::size_t>(usual * static_cast<double>(count - 1));
-    out[x] = order_[window.of_rank(place)].first;
-  }
-}
 
 inline void BlockLevels::corrections(std::size_t row, std::span<double> out) const {
   std::vector<double> shares(blocks_x_), samples(blocks_x_), means(blocks_x_), spread(blocks_x_);
   std::vector<double> variances(blocks_x_);
+  // One that most do not exceed: not the mean, for a part of the picture with far more noise must
+  // not speak for the others.
+  constexpr double usual = 0.65;  // a share of blocks
   // One block around after the other, of all blocks of the row.
   visit_around(row, [&](double share, std::size_t place) {
     for (std::size_t x = 0; x < blocks_x_; ++x) {
@@ -117,7 +88,7 @@ inline void BlockLevels::corrections(std::size_t row, std::span<double> out) con
       spread[x] += share * samples_[place + x] * difference * difference;
     }
   });
-  usual_variances(row, variances);
+  variances_.usual(row, reach, usual, variances);
   for (std::size_t x = 0; x < blocks_x_; ++x) {
     out[x] = 0;
     if (!(shares[x] > 0)) continue;
@@ -132,7 +103,8 @@ inline void BlockLevels::corrections(std::size_t row, std::span<double> out) con
 }
 
 FREQSYNTH_INLINE void pool_levels(const NoisyPicture& picture, std::span<const float> sums,
-                                  std::span<float> pixels, const ExecutorRef& executor) {
+                                  std::span<const float> all_sums, std::span<float> pixels,
+                                  const ExecutorRef& executor) {
   constexpr int times = 4;  // each reaches further
   const std::size_t blocks_x = picture.width / block_size;
   const std::size_t blocks_y = picture.height / block_size;
@@ -143,21 +115,15 @@ FREQSYNTH_INLINE void pool_levels(const NoisyPicture& picture, std::span<const f
       blends_along(picture.height, block_size, blocks_y, static_cast<double>(blocks_y - 1));
   std::vector<double> corrections(blocks_x * blocks_y);
   for (int i = 0; i < times; ++i) {
-    const BlockLevels levels(block_residuals(picture, sums, pixels, executor), blocks_x);
+    const BlockLevels levels(block_residuals(picture, sums, pixels, executor),
+                             block_residuals(picture, all_sums, pixels, executor), blocks_x);
     share_pieces(executor, blocks_y, [&](std::size_t row) {
       levels.corrections(row, std::span(corrections).subspan(row * blocks_x, blocks_x));
     });
     share_pieces(executor, blocks_y, [&](std::size_t row) {
       for (std::size_t y = row * block_size; y < (row + 1) * block_size; ++y) {
-        const double* above = &corrections[rows[y].first * blocks_x];
-        const double* below = &corrections[rows[y].second * blocks_x];
-        const double down = rows[y].share;
         for (std::size_t x = 0; x < picture.width; ++x) {
-          const LinearBlend<double>& column = columns[x];
-          const double right = column.share;
-          const double correction =
-              (1 - down) * ((1 - right) * above[column.first] + right * above[column.second]) +
-              down * ((1 - right) * below[column.first] + right * below[column.second]);
+          const double correction = blended(corrections.data(), blocks_x, columns[x], rows[y]);
           pixels[y * picture.width + x] += static_cast<float>(correction);
         }
       }

@@ -36,4 +36,15 @@ std::vector<LinearBlend<Real>> blends_along(std::size_t pixels, std::size_t cell
   return blends;
 }
 
+/// The value at a pixel of what is known at the centres of cells, row by row.
+template <class Real>
+Real blended(const Real* cells, std::size_t cells_x, const LinearBlend<Real>& column,
+             const LinearBlend<Real>& row) {
+  const Real* above = cells + row.first * cells_x;
+  const Real* below = cells + row.second * cells_x;
+  const Real right = column.share, down = row.share;
+  return (1 - down) * ((1 - right) * above[column.first] + right * above[column.second]) +
+         down * ((1 - right) * below[column.first] + right * below[column.second]);
+}
+
 }  // namespace freqsynth::detail

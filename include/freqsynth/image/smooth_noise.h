@@ -6,7 +6,8 @@
 /// blocks' own fits, which know edges that nothing else tells, together with features; then on the
 /// result. These guides are made of the same samples, so their noise agrees with the samples'.
 /// Hence ridges in proportion to the variance that the noise of a pixel's mean has, and peaks that
-/// one sample has made are no guides (LonePeaks). In between, steps that noise leaves on borders of
+/// one sample has made are no guides (LonePeaks). The light of rare samples is left out of all that
+/// and handed out at the end (RareLight). In between, steps that noise leaves on borders of
 /// blocks are taken back, and so are differences between blocks that are noise alone. Each pass
 /// stays within the range of the pixels that it began with, 5 x 5 around each.
 #pragma once

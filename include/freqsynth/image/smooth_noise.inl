@@ -12,6 +12,7 @@
 #include "freqsynth/image/block_noise.h"
 #include "freqsynth/image/guided_regression.h"
 #include "freqsynth/image/lone_peaks.h"
+#include "freqsynth/image/rare_light.h"
 #include "freqsynth/image/smooth_noise.h"
 
 namespace freqsynth {
@@ -181,8 +182,15 @@ FREQSYNTH_INLINE void smooth_noise_on(NoisyPicture& picture, std::span<const std
     }
   }
 
+  std::vector<RareLight> rare;
+  std::vector<NoisyPicture::Plane> all_sums;  // with the rare light, which picture.sums lack
   std::vector<const float*> sums;
-  for (const std::size_t channel : channels) sums.push_back(picture.sums[channel].data());
+  for (const std::size_t channel : channels) {
+    rare.emplace_back(picture, channel, executor);
+    all_sums.push_back(rare.back().other_sums());
+    picture.sums[channel].swap(all_sums.back());
+    sums.push_back(picture.sums[channel].data());
+  }
   std::vector<NoisyPicture::Plane> shown;
   for (const std::size_t channel : features) {
     const auto& seamless = picture.seamless;
@@ -219,9 +227,12 @@ FREQSYNTH_INLINE void smooth_noise_on(NoisyPicture& picture, std::span<const std
     guides.clear();
     first = false;
   }
-  for (const std::size_t channel : channels) {
-    pool_levels(picture, picture.sums[channel], picture.pixels[channel], executor);
+  for (std::size_t t = 0; t < channels.size(); ++t) {
+    const std::size_t channel = channels[t];
+    pool_levels(picture, picture.sums[channel], all_sums[t], picture.pixels[channel], executor);
     close_all(channel, last_border);
+    rare[t].spread(picture.pixels[channel], executor);
+    picture.sums[channel] = std::move(all_sums[t]);
   }
   for (std::size_t i = 0; i < features.size(); ++i) {
     picture.pixels[features[i]] = std::move(shown[i]);
