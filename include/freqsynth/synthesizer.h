@@ -108,7 +108,8 @@ class FREQSYNTH_API Synthesizer {
   /// \param progress  `bool(const Progress&)`, or `bool(double)` for Progress::fraction alone:
   ///                  called after every batch, and at an end that it has not been told of by then;
   ///                  false stops, and nothing is lost
-  /// \param batch     most requests between two calls of `progress`, at least 1
+  /// \param batch     most requests between two calls of `progress` for each of the executor's
+  ///                  threads, at least 1
   /// \throws what the sampler, the executor or the callback throws, and std::runtime_error when the
   ///         executor left out tasks. What the sampler returned before is delivered, the other
   ///         requests are given back; run() can be called again.

@@ -2,6 +2,8 @@
 #include "freqsynth/engine/thread_pool.h"
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <exception>
 #include <memory>
@@ -19,6 +21,17 @@ namespace {
 /// The pool whose task this thread is running.
 thread_local const void* current_pool = nullptr;
 
+/// How long a thread looks out for what comes next before it sleeps: about as long as it takes to
+/// wake one. Between two calls of a run there is often less to do.
+constexpr std::chrono::microseconds patience{30};
+
+/// Until `come` holds, but not for long.
+template <class Predicate>
+void look_out(const Predicate& come) {
+  const auto end = std::chrono::steady_clock::now() + patience;
+  while (!come() && std::chrono::steady_clock::now() < end) std::this_thread::yield();
+}
+
 }  // namespace
 
 struct ThreadPool::State {
@@ -29,9 +42,11 @@ struct ThreadPool::State {
   const TaskRef* task = nullptr;
   std::size_t count = 0;
   std::size_t next = 0;      // first task that nobody has taken
-  std::size_t finished = 0;  // tasks that have returned
   std::exception_ptr error;  // of the first task that threw
   bool stop = false;
+  // Written under the lock, and read without by who looks out for a change.
+  std::atomic<std::size_t> finished{0};  // tasks that have returned
+  std::atomic<std::size_t> calls{0};     // that there were, and the end
   std::vector<std::thread> threads;
 
   explicit State(std::size_t threads_wanted);
@@ -60,6 +75,7 @@ void ThreadPool::State::join() {
   {
     const std::lock_guard lock(mutex);
     stop = true;
+    ++calls;
   }
   wake.notify_all();
   for (std::thread& thread : threads) thread.join();
@@ -70,6 +86,10 @@ void ThreadPool::State::serve() {
   std::unique_lock lock(mutex);
   while (!stop) {
     work(lock);
+    const std::size_t known = calls;
+    lock.unlock();
+    look_out([&] { return calls != known; });
+    lock.lock();
     wake.wait(lock, [&] { return stop || next < count; });
   }
 }
@@ -109,12 +129,20 @@ void ThreadPool::execute(std::size_t count, TaskRef task) {
   const std::lock_guard turn(state_->caller);
   std::unique_lock lock(state_->mutex);
   state_->task = &task;
-  state_->next = state_->finished = 0;
+  state_->next = 0;
+  state_->finished = 0;
   state_->count = count;
+  ++state_->calls;
   state_->wake.notify_all();
   state_->work(lock);
-  state_->done.wait(lock, [&] { return state_->finished == state_->count; });
-  state_->count = state_->next = state_->finished = 0;
+  const auto all_done = [&] { return state_->finished == count; };
+  if (!all_done()) {
+    lock.unlock();
+    look_out(all_done);
+    lock.lock();
+    state_->done.wait(lock, all_done);
+  }
+  state_->count = state_->next = 0;
   if (state_->error) std::rethrow_exception(std::exchange(state_->error, nullptr));
 }
 

@@ -148,7 +148,8 @@ typedef struct freqsynth_run_options {
   freqsynth_thread_pool* thread_pool;   /**< NULL: the calling thread */
   freqsynth_progress_callback progress; /**< NULL: none */
   void* progress_user;                  /**< its first argument */
-  size_t batch;                         /**< most requests between two calls of `progress`; 1024 */
+  /** Most requests between two calls of `progress` for each thread; 1024. */
+  size_t batch;
 } freqsynth_run_options;
 
 /** The defaults; all pointers are NULL. \param size  sizeof(freqsynth_run_options) */

@@ -180,9 +180,11 @@ RunReport run_loop(E& engine, std::size_t channels, const SamplerRef& sampler, c
     return RunReport{reason, seconds(sampling), seconds(Clock::now() - begin - sampling),
                      engine.stats().differing_probes > 0};
   };
+  const std::size_t concurrency = std::max<std::size_t>(executor.concurrency(), 1);
+  // As many for each thread: to come together costs time, and time between two reports stays.
+  const std::size_t wave = engine.wave_size();
+  const std::size_t most = batch > wave / concurrency ? wave : batch * concurrency;
   // A few parts per thread even out the cost of samples.
-  const std::size_t concurrency = executor.concurrency();
-  const std::size_t most = std::min(batch, engine.wave_size());
   const std::size_t most_parts =
       concurrency <= 1 ? 1 : std::min(most, 4 * std::min(concurrency, most));
   Batch<E> requests(engine, stride, most, most_parts, concurrency, engine.packet());
