@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <stdexcept>
 #include <vector>
 
 #include "freqsynth/engine/thread_pool.h"
@@ -186,6 +187,11 @@ TEST(TreePictures, TellHowFarTheyAreOff) {
     EXPECT_LT(expected, before);
     before = expected;
   }
+}
+
+TEST(TreePictures, RefuseABlendThatIsTooWide) {
+  const NodePositions positions;
+  EXPECT_THROW(TreePictures(positions, {.blend = 5}), std::invalid_argument);
 }
 
 TEST(TreePictures, AreAFrequencyImageWithTheSamePixels) {

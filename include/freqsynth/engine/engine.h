@@ -109,6 +109,7 @@ class Engine : public HostDesk<Engine<R, M>> {
  private:
   using Desk = HostDesk<Engine>;
   friend Desk;
+  using Desk::apart_;
   using Desk::ended_;
   using Desk::errors_;
   using Desk::grid_;
