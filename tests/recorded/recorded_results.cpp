@@ -214,7 +214,7 @@ constexpr Configuration configurations[] = {
     {"change", change, 0x1bc9936aa4434647u},
     {"strict", strict, 0x54524a16bdf84efcu},
     {"weighted", weighted, 0x835ed91e6ef2ec8bu},
-    {"noisy", noisy, 0x40cc2f83c11dcfc7u},
+    {"noisy", noisy, 0x5856f13124508d7du},
     {"until_quantized", until_quantized, 0x9ed90a8c22dad437u},
     {"threshold", threshold, 0xe8e4a171b62d6ff6u},
     {"capped", capped, 0x8e992b5183e04e6fu},

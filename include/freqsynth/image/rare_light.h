@@ -25,7 +25,7 @@ namespace detail {
 class FREQSYNTH_API RareLight {
  public:
   /// Finds it: at lone peaks (LonePeaks), what is above them in a pixel's samples, if that is far
-  /// more than noise usually is around and hardly any of the pixels around has as much.
+  /// more than noise and light usually are around, and hardly any of the pixels around has as much.
   RareLight(const NoisyPicture& picture, std::size_t channel, const ExecutorRef& executor = {});
 
   /// The sums of the samples of each pixel without it.
@@ -38,7 +38,7 @@ class FREQSYNTH_API RareLight {
 
  private:
   void find(std::size_t row, std::span<const float> without_peaks,
-            std::span<const double> variances);
+            std::span<const double> variances, std::span<const double> levels);
   [[nodiscard]] std::vector<double> spread_around(std::vector<double> values) const;
   [[nodiscard]] std::vector<double> usual_levels(std::span<const float> pixels,
                                                  const ExecutorRef& executor) const;

@@ -44,14 +44,17 @@ FREQSYNTH_INLINE RareLight::RareLight(const NoisyPicture& picture, std::size_t c
   const std::vector<double> usual =
       usual_around(std::vector<double>(variances.begin(), variances.end()), blocks_x_, executor);
   const NoisyPicture::Plane without_peaks = LonePeaks(picture, channel).removed(executor);
-  share_pieces(executor, blocks_y_, [&](std::size_t row) { find(row, without_peaks, usual); });
+  const std::vector<double> levels = usual_levels(picture.pixels[channel], executor);
+  share_pieces(executor, blocks_y_,
+               [&](std::size_t row) { find(row, without_peaks, usual, levels); });
 }
 
 /// In a row of blocks.
 FREQSYNTH_INLINE void RareLight::find(std::size_t row, std::span<const float> without_peaks,
-                                      std::span<const double> variances) {
+                                      std::span<const double> variances,
+                                      std::span<const double> levels) {
   constexpr std::size_t near = 1, far = 2;
-  constexpr double many_deviations = 4, most_others = 3;
+  constexpr double many_deviations = 6, most_others = 3;
   const std::size_t width = picture_.width;
   const NoisyPicture::Plane& sums = picture_.sums[channel_];
   const NoisyPicture::Plane& pixels = picture_.pixels[channel_];
@@ -80,8 +83,9 @@ FREQSYNTH_INLINE void RareLight::find(std::size_t row, std::span<const float> wi
     if (level == std::numeric_limits<float>::infinity()) continue;
     const double light = above(pixel, static_cast<double>(level));
     const std::size_t block = row * blocks_x_ + pixel % width / block_size;
-    const double noise = many_deviations * many_deviations * samples * variances[block];
-    if (!(light * light > noise)) continue;
+    // Of light there is noise up to its own level, seen or not; and edges are no rare light.
+    const double variance = std::max(variances[block], levels[block] * levels[block]);
+    if (!(light * light > many_deviations * many_deviations * samples * variance)) continue;
     double others = 0;  // their number, those with less of it as a part
     around(pixel, far, [&](std::size_t other) {
       if (other != pixel) others += std::min(1.0, above(other, static_cast<double>(level)) / light);
