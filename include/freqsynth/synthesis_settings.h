@@ -34,6 +34,7 @@ struct SynthesisSettings {
   /// for must be as they are by default: `window`, `quantization`, `max_samples_per_block`,
   /// `least_samples_per_block`, `shared_list`, of `list` all but `seed` and `positions`, and of
   /// `priority` all but `steer` and `exposure`; and no channel has ChannelRole::feature.
+  /// Its engine does not survive that memory runs out, see TreeEngine.
   RefinerKind refiner = RefinerKind::least_squares;
 
   /// Whether the sampler returns Monte Carlo estimates: another value at each call for the same

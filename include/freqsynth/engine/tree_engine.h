@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <mutex>
+#include <new>
 #include <optional>
 #include <span>
 #include <utility>
@@ -29,7 +30,9 @@
 
 namespace freqsynth {
 
-/// All members may be called from any thread.
+/// All members may be called from any thread. When memory runs out while a wave is taken in,
+/// deliver() or abandon() throws std::bad_alloc, and all that looks at the tree does from then on:
+/// what was saved before is what there is.
 class TreeEngine : public HostDesk<TreeEngine> {
  public:
   /// \param settings  noisy where `noise` is Noise::present
@@ -87,7 +90,11 @@ class TreeEngine : public HostDesk<TreeEngine> {
  private:
   friend HostDesk<TreeEngine>;
 
-  [[nodiscard]] std::unique_lock<std::mutex> settled() const { return std::unique_lock(mutex_); }
+  [[nodiscard]] std::unique_lock<std::mutex> settled() const {
+    std::unique_lock lock(mutex_);
+    if (failed_) throw std::bad_alloc();
+    return lock;
+  }
   // All of these run under the lock.
   std::optional<StopReason> prepare_wave();
   std::optional<StopReason> choose_wave();
@@ -105,6 +112,7 @@ class TreeEngine : public HostDesk<TreeEngine> {
   std::optional<std::vector<float>> factors_;  // that are to be used from the next wave on
   Predictor predict_ = nullptr;
   const void* context_ = nullptr;
+  bool failed_ = false;  // memory ran out halfway through a wave
 };
 
 }  // namespace freqsynth

@@ -85,14 +85,21 @@ inline Request TreeEngine::make_request(std::uint32_t slot) const {
 }
 
 inline void TreeEngine::end_of_delivery(std::unique_lock<std::mutex>&, const detail::ExecutorRef&) {
-  if (!wave_.complete()) return;
+  if (failed_ || !wave_.complete()) return;
   static_cast<void>(take_in_repeated());
   for (std::size_t i = 0; i < wave_.samples(); ++i) {
     const Request& asked = sampler_.planned()[i];
     note(i, {asked.x, asked.y},
          [](std::size_t, float value) { return TreeSampler::usable(value); });
   }
-  sampler_.take_in(wave_.values());
+  failed_ = true;
+  try {
+    sampler_.take_in(wave_.values());
+  } catch (const std::bad_alloc&) {
+    room_.wake();
+    throw;
+  }
+  failed_ = false;
   stats_.absorbed = sampler_.stats().absorbed;
   close_wave();
   room_.wake();
