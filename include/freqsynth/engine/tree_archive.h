@@ -87,10 +87,12 @@ void TreeArchive::node(Archive& archive, Node& node) {
   archive.number(node.limit);
   archive.number(node.samples);
   archive.number(node.held);
-  archive.number(node.held_corners);
+  std::uint32_t corners = node.held_corners;
+  archive.number(corners);
   archive.number(node.scale);
   archive.check(node.limit <= NodePositions::size && NodePositions::handed_down(node.limit) != 0 &&
-                node.samples <= node.limit && node.held <= node.limit && node.held_corners < 16);
+                node.samples <= node.limit && node.held <= node.limit && corners < 16);
+  if constexpr (Archive::loading) node.held_corners = static_cast<std::uint8_t>(corners);
   archive.check(in_range(double{node.scale}, 1e30));
 }
 
