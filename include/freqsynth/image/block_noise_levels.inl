@@ -115,8 +115,10 @@ FREQSYNTH_INLINE void pool_levels(const NoisyPicture& picture, std::span<const f
       blends_along(picture.height, block_size, blocks_y, static_cast<double>(blocks_y - 1));
   std::vector<double> corrections(blocks_x * blocks_y);
   for (int i = 0; i < times; ++i) {
-    const BlockLevels levels(block_residuals(picture, sums, pixels, executor),
-                             block_residuals(picture, all_sums, pixels, executor), blocks_x);
+    const std::vector<BlockResidual> blocks = block_residuals(picture, sums, pixels, executor);
+    const bool same = sums.data() == all_sums.data();
+    const BlockLevels levels(
+        blocks, same ? blocks : block_residuals(picture, all_sums, pixels, executor), blocks_x);
     share_pieces(executor, blocks_y, [&](std::size_t row) {
       levels.corrections(row, std::span(corrections).subspan(row * blocks_x, blocks_x));
     });

@@ -75,6 +75,12 @@ FREQSYNTH_INLINE void RareLight::find(std::size_t row, std::span<const float> wi
        ++pixel) {
     const auto samples = static_cast<double>(picture_.weights[pixel]);
     if (!(samples > 0)) continue;
+    const std::size_t block = row * blocks_x_ + pixel % width / block_size;
+    // Of light there is noise up to its own level, seen or not; and edges are no rare light.
+    const double variance = std::max(variances[block], levels[block] * levels[block]);
+    const double noise = many_deviations * many_deviations * samples * variance;
+    const auto sum = static_cast<double>(sums[pixel]);
+    if (!(sum > 0 && sum * sum > noise)) continue;
     // The sample that has made a peak may lie beside it.
     float level = std::numeric_limits<float>::infinity();
     around(pixel, near, [&](std::size_t other) {
@@ -82,10 +88,7 @@ FREQSYNTH_INLINE void RareLight::find(std::size_t row, std::span<const float> wi
     });
     if (level == std::numeric_limits<float>::infinity()) continue;
     const double light = above(pixel, static_cast<double>(level));
-    const std::size_t block = row * blocks_x_ + pixel % width / block_size;
-    // Of light there is noise up to its own level, seen or not; and edges are no rare light.
-    const double variance = std::max(variances[block], levels[block] * levels[block]);
-    if (!(light * light > many_deviations * many_deviations * samples * variance)) continue;
+    if (!(light * light > noise)) continue;
     double others = 0;  // their number, those with less of it as a part
     around(pixel, far, [&](std::size_t other) {
       if (other != pixel) others += std::min(1.0, above(other, static_cast<double>(level)) / light);
@@ -124,11 +127,14 @@ FREQSYNTH_INLINE std::vector<double> RareLight::spread_around(std::vector<double
 FREQSYNTH_INLINE std::vector<double> RareLight::usual_levels(std::span<const float> pixels,
                                                              const ExecutorRef& executor) const {
   std::vector<double> levels(blocks_x_ * blocks_y_);
-  for (std::size_t pixel = 0; pixel < pixels.size(); ++pixel) {
-    const std::size_t block =
-        pixel / picture_.width / block_size * blocks_x_ + pixel % picture_.width / block_size;
-    levels[block] += std::max(0.0, static_cast<double>(pixels[pixel])) / max_terms;
-  }
+  share_pieces(executor, blocks_y_, [&](std::size_t row) {
+    for (std::size_t y = row * block_size; y < (row + 1) * block_size; ++y) {
+      for (std::size_t x = 0; x < picture_.width; ++x) {
+        levels[row * blocks_x_ + x / block_size] +=
+            std::max(0.0, static_cast<double>(pixels[y * picture_.width + x])) / max_terms;
+      }
+    }
+  });
   return usual_around(levels, blocks_x_, executor);
 }
 
