@@ -28,6 +28,9 @@ class FREQSYNTH_API RareLight {
   /// more than noise and light usually are around, and hardly any of the pixels around has as much.
   RareLight(const NoisyPicture& picture, std::size_t channel, const ExecutorRef& executor = {});
 
+  /// Whether there is any.
+  [[nodiscard]] bool any() const;
+
   /// The sums of the samples of each pixel without it.
   [[nodiscard]] NoisyPicture::Plane other_sums() const;
 

@@ -97,6 +97,10 @@ FREQSYNTH_INLINE void RareLight::find(std::size_t row, std::span<const float> wi
   }
 }
 
+FREQSYNTH_INLINE bool RareLight::any() const {
+  return std::any_of(light_.begin(), light_.end(), [](float light) { return light > 0; });
+}
+
 FREQSYNTH_INLINE NoisyPicture::Plane RareLight::other_sums() const {
   NoisyPicture::Plane others = picture_.sums[channel_];
   for (std::size_t pixel = 0; pixel < others.size(); ++pixel) others[pixel] -= light_[pixel];

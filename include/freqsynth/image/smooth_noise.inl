@@ -229,7 +229,9 @@ FREQSYNTH_INLINE void smooth_noise_on(NoisyPicture& picture, std::span<const std
   }
   for (std::size_t t = 0; t < channels.size(); ++t) {
     const std::size_t channel = channels[t];
-    pool_levels(picture, picture.sums[channel], all_sums[t], picture.pixels[channel], executor);
+    const NoisyPicture::Plane& sums_here = picture.sums[channel];
+    pool_levels(picture, sums_here, rare[t].any() ? all_sums[t] : sums_here,
+                picture.pixels[channel], executor);
     close_all(channel, last_border);
     rare[t].spread(picture.pixels[channel], executor);
     picture.sums[channel] = std::move(all_sums[t]);
