@@ -27,9 +27,8 @@ enum class ChannelRole : std::uint8_t {
   /// else. Its pixels are those of Synthesizer::channel_pixels(); it has no coefficients.
   mean,
   /// As `mean`, but it guides the smoothing of noise as `feature` does, at a third of the engine's
-  /// time. About as good where it has no noise of its own; where it has, as behind a lens, and
-  /// where
-  /// every block has edges, `feature` is better.
+  /// time. Nearly as good where it has no noise of its own; where it has, as behind a lens, and
+  /// where every block has edges, `feature` is better.
   mean_feature
 };
 
