@@ -40,7 +40,7 @@ void read_name(std::string_view option, const std::string& text,
 /// The values of options as they were given; empty: not given.
 struct Texts {
   std::string reference, terms_every, cutoff, order, pixel_filter;
-  std::string scale, channels, zone_frequency, average, steer;
+  std::string scale, channels, zone_frequency, average, steer, refiner;
   std::string quality, until_quality, subsampling, tolerance;
   bool no_butterworth = false;
 };
@@ -87,6 +87,10 @@ void describe_method(CommandLine& line, Options& options, Texts& texts) {
       .help(
           "What errors decide where samples are taken: linear, relative to the brightness, or "
           "display: as seen in sRGB (linear)");
+  parser.arg("--refiner %s:NAME", &texts.refiner)
+      .help(
+          "What makes samples an image: least_squares, block by block, or kriging: a tree of nodes "
+          "and a bank of priors (least_squares)");
 }
 
 void describe_jpeg(OIIO::ArgParse& parser, Options& options, Texts& texts) {
@@ -121,6 +125,7 @@ void read_method(const Texts& texts, Options& options) {
             options.pixel_filter);
   read_name("--channels", texts.channels, {"rgb", "gray"}, options.gray);
   read_name("--steer", texts.steer, {"linear", "relative", "display"}, options.steer);
+  read_name("--refiner", texts.refiner, {"least_squares", "kriging"}, options.refiner);
 }
 
 /// What depends on whether coefficients become a JPEG file.
@@ -154,6 +159,9 @@ void check_combinations(const CommandLine& line, const Texts& texts, const Optio
             "--direct: needs -o and has no --frames, --scale and --reference");
   refuse_if(options.direct && options.pixel_filter != freqsynth::PixelFilter::box,
             "--direct: averages over pixels, has no other --pixel-filter");
+  refuse_if(options.refiner == freqsynth::RefinerKind::kriging &&
+                (options.until_quality || !texts.terms_every.empty()),
+            "--refiner kriging: has no --until-quality and no --terms-every");
   refuse_if(options.progressive && !options.direct, "--progressive: needs --direct");
   refuse_if(!texts.tolerance.empty() && !options.until_quality,
             "--tolerance: needs --until-quality");

@@ -35,6 +35,7 @@ struct Options : SharedOptions {
   std::optional<double> zone_frequency;
   Averaging averaging = Averaging::light;
   freqsynth::Steer steer = freqsynth::Steer::linear;
+  freqsynth::RefinerKind refiner = freqsynth::RefinerKind::least_squares;
   int quality = 95;  // of a JPEG file
   freqsynth::Subsampling subsampling = freqsynth::Subsampling::none;
   bool direct = false;  // coefficients to JPEG, without pixels

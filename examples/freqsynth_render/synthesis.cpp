@@ -88,6 +88,8 @@ freqsynth::SynthesisSettings settings_of(const Options& options) {
   settings.wave = options.wave;
   settings.priority.steer = options.steer;
   settings.list.seed = options.seed;
+  settings.refiner = options.refiner;
+  if (options.refiner == freqsynth::RefinerKind::kriging) return settings;
   settings.list.samples_per_term = options.terms_every;
   if (options.until_quality) {
     settings.quantization = freqsynth::quantization_target(quantization_of(options),

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The same number of samples by the engine of blocks and by a tree of nodes with a bank of priors.
+// The same number of samples fit by least squares, and kriged: a tree of nodes and a bank of
+// priors.
 #include <cmath>
 #include <cstdio>
 #include <numbers>
 #include <vector>
 
-#include "freqsynth/engine/direction_rule.h"
-#include "freqsynth/engine/tree_sampler.h"
 #include "freqsynth/freqsynth.h"
-#include "freqsynth/image/tree_pictures.h"
 
 constexpr std::size_t side = 128;
 
@@ -34,26 +32,21 @@ static double error_of(const std::vector<float>& pixels) {
   return std::sqrt(sum / static_cast<double>(pixels.size()));
 }
 
-static double by_blocks(double samples_per_pixel) {
-  freqsynth::Synthesizer engine({.width = side, .height = side, .channels = 1});
+static double error_after(double samples_per_pixel, freqsynth::RefinerKind refiner) {
+  freqsynth::SynthesisSettings settings;
+  settings.width = settings.height = side;
+  settings.channels = 1;
+  settings.refiner = refiner;
+  freqsynth::Synthesizer engine(settings);
   engine.run(radiance, {.samples_per_pixel = samples_per_pixel});
   return error_of(freqsynth::reconstruct(engine.finished_image()));
 }
 
-static double by_tree(double samples_per_pixel) {
-  freqsynth::TreeSettings settings;
-  settings.width = settings.height = side;
-  settings.weights = {1};
-  freqsynth::DirectionRule rule;
-  freqsynth::TreeSampler sampler(settings, &rule);
-  sampler.run(radiance, static_cast<std::uint64_t>(samples_per_pixel * side * side));
-  freqsynth::TreePictures pictures(sampler.tree().positions());
-  return error_of(pictures.pixels(sampler.tree()));
-}
-
 int main() {
-  std::printf("samples per pixel   RMSE: blocks     tree\n");
+  using freqsynth::RefinerKind;
+  std::printf("samples per pixel   RMSE: least squares  kriging\n");
   for (const double samples : {0.0625, 0.25, 1.0, 4.0}) {
-    std::printf("%17.4f %14.4f %8.4f\n", samples, by_blocks(samples), by_tree(samples));
+    std::printf("%17.4f %21.4f %8.4f\n", samples, error_after(samples, RefinerKind::least_squares),
+                error_after(samples, RefinerKind::kriging));
   }
 }
