@@ -41,7 +41,7 @@ TEST(WindowRanks, FollowASortedSet) {
 
 /// 32 x 32 pixels of 1, each with a sample.
 NoisyPicture flat_picture() {
-  NoisyPicture picture{32, 32, NoisyPicture::Plane(32 * 32, 1.0f), {}, {}, {}};
+  NoisyPicture picture{32, 32, NoisyPicture::Plane(32 * 32, 1.0f), {}, {}, {}, {}};
   picture.sums = {picture.weights};
   picture.pixels = {picture.weights};
   picture.variances = {NoisyPicture::Plane(16)};
@@ -101,7 +101,7 @@ TEST(LinearBlend, IsBetweenTheCentresOfCells) {
 }
 
 NoisyPicture random_picture(std::size_t width, std::size_t height, std::size_t channels) {
-  NoisyPicture picture{width, height, {}, {}, {}, {}};
+  NoisyPicture picture{width, height, {}, {}, {}, {}, {}};
   oracle::Random random(9);
   picture.weights.resize(width * height);
   picture.sums.assign(channels, picture.weights);

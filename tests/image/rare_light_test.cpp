@@ -16,7 +16,7 @@ namespace {
 
 /// Pixels of 1, each with some samples that say so.
 NoisyPicture flat_picture(std::size_t width, std::size_t height, float samples) {
-  NoisyPicture picture{width, height, NoisyPicture::Plane(width * height, samples), {}, {}, {}};
+  NoisyPicture picture{width, height, NoisyPicture::Plane(width * height, samples), {}, {}, {}, {}};
   picture.sums = {picture.weights};
   picture.pixels = {NoisyPicture::Plane(width * height, 1.0f)};
   picture.variances = {NoisyPicture::Plane(width * height / max_terms)};
