@@ -11,6 +11,7 @@
 #include "freqsynth/image/butterworth.h"
 #include "freqsynth/image/reconstructor.h"
 #include "freqsynth/jpeg/quantization.h"
+#include "freqsynth/synthesis_settings.h"
 
 /// In what the values of a pixel are averaged.
 enum class Averaging : std::uint8_t {
