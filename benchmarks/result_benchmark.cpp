@@ -44,7 +44,7 @@ BENCHMARK_CAPTURE(finished_image, noisy, FinishSettings{.noise = Noise::present}
 
 /// Three channels of noise and seven features.
 void smooth(benchmark::State& state) {
-  NoisyPicture noisy{1920, 1080, {}, {}, {}, {}};
+  NoisyPicture noisy{1920, 1080, {}, {}, {}, {}, {}};
   const std::size_t pixels = noisy.width * noisy.height;
   noisy.weights.resize(pixels);
   noisy.sums.assign(10, noisy.weights);

@@ -38,7 +38,7 @@ function best_other(s, r, c,    i, m, best) {
   best = ""
   for (i = 1; i <= methods; ++i) {
     m = method[i]
-    if (m == ours || m == ours "-plain" || m == ours "-paper" || !known(s, m, r)) continue
+    if (m == ours || index(m, ours "-") == 1 || !known(s, m, r)) continue
     if (best == "" || error(s, m, r, c) < error(s, best, r, c)) best = m
   }
   return best
