@@ -196,7 +196,8 @@ TEST(RunMethod, SamplesWithFeaturesCountAsTheOthersDo) {
           slope(x, y, id, rgb);
         },
         job);
-    const bool uses_features = method.name == "freqsynth" || method.name == "nfor";
+    const bool uses_features =
+        method.name == "freqsynth" || method.name == "freqsynth-means" || method.name == "nfor";
     // All are called twice more to take the time.
     EXPECT_EQ(featured, uses_features ? 3 * run.calls : 0) << method.name;
     EXPECT_EQ(plain, uses_features ? 0 : 3 * run.calls) << method.name;
