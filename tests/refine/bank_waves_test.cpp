@@ -164,9 +164,10 @@ TEST(BankWaves, NeedAveragesThatTellThem) {
 TEST(BankWaves, TellWhatNoOtherPriorDoes) {
   // Waves shorter than twice the distance of samples along the axes.
   const auto at = points(81);
+  const PriorBank exact = PriorBank::exact();
   PriorBank without;
-  for (const PriorGroup& group : PriorBank::exact().groups()) {
-    if (group.count == 1) without.add(PriorBank::exact().members()[group.first]);
+  for (const PriorGroup& group : exact.groups()) {
+    if (group.count == 1) without.add(exact.members()[group.first]);
   }
   PriorBank with = without;
   with.add_waves(wave_priors());
