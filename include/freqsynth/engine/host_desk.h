@@ -141,18 +141,18 @@ class HostDesk {
   static void list_slots(Archive& archive, Engine& self);
 
   // What an engine shares with its desk.
-  BlockGrid grid_;
-  Wave wave_;
-  PixelCounts pixels_;
-  PixelStore apart_;  // channels without coefficients
-  NoiseProbes probes_;
-  Noise noise_;
-  StopRule stop_;
-  ErrorWatch errors_;
-  std::optional<StopReason> ended_;  // why there is no wave
-  WaitingRoom room_;
-  SynthesisStats stats_;
-  mutable std::mutex mutex_;
+  BlockGrid grid_;                   ///< the blocks of what is sampled
+  Wave wave_;                        ///< that is under way
+  PixelCounts pixels_;               ///< requests of each pixel
+  PixelStore apart_;                 ///< channels without coefficients
+  NoiseProbes probes_;               ///< positions that are asked for twice
+  Noise noise_;                      ///< what is known of it
+  StopRule stop_;                    ///< when requests end
+  ErrorWatch errors_;                ///< when the predicted error is to be looked at
+  std::optional<StopReason> ended_;  ///< why there is no wave
+  WaitingRoom room_;                 ///< where threads wait for requests
+  SynthesisStats stats_;             ///< counters, of complete waves
+  mutable std::mutex mutex_;         ///< the lock
 
  private:
   [[nodiscard]] Self& self() { return static_cast<Self&>(*this); }

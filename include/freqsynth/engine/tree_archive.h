@@ -60,7 +60,6 @@ struct TreeArchive {
   template <class Archive, class Sampler>
   static void chosen(Archive& archive, Sampler& sampler);
 };
-/// \endcond
 
 // ------------------------------------------------------------------------------------ definitions
 
@@ -222,5 +221,7 @@ void TreeArchive::chosen(Archive& archive, Sampler& sampler) {
     if (under_way) sampler.ask();
   }
 }
+
+/// \endcond
 
 }  // namespace freqsynth
