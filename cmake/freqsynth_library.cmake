@@ -31,4 +31,5 @@ function(freqsynth_library target)
   endif()
 
   freqsynth_own_target(${target})
+  freqsynth_fuzzed(${target})
 endfunction()

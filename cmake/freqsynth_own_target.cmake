@@ -24,3 +24,11 @@ function(freqsynth_own_target target)
     target_link_options(${target} PRIVATE -fsanitize=${sanitizers})
   endif()
 endfunction()
+
+# With FREQSYNTH_FUZZ: clang's fuzzers are told which branches of this target are taken.
+function(freqsynth_fuzzed target)
+  if(FREQSYNTH_FUZZ)
+    target_compile_options(${target} PRIVATE -fsanitize=fuzzer-no-link)
+    target_link_options(${target} PRIVATE -fsanitize=fuzzer-no-link)
+  endif()
+endfunction()
