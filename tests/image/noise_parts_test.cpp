@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdlib>
 #include <set>
 #include <vector>
 
@@ -79,6 +80,37 @@ TEST(LonePeaks, LinesAndSpotsAreNone) {
     for (std::size_t x = 20; x < 25; ++x) add_peak(picture, y * 32 + x, 1, 100);
   }
   EXPECT_EQ(detail::LonePeaks(picture, 0).removed(), picture.pixels[0]);
+}
+
+TEST(LonePeaks, AreThoseOfTheDefinition) {
+  // Few values, so that many pixels are as bright as each other; samples lie in pixels as bright.
+  oracle::Random random(5);
+  NoisyPicture picture = flat_picture();
+  for (std::size_t pixel = 0; pixel < picture.weights.size(); ++pixel) {
+    const auto value = static_cast<float>(random.below(30));
+    picture.pixels[0][pixel] = picture.sums[0][pixel] = value;
+  }
+  picture.variances[0].assign(16, 1e6f);  // all can be of one sample
+  NoisyPicture::Plane expected = picture.pixels[0];
+  std::size_t peaks = 0;
+  for (int y = 0; y < 32; ++y) {
+    for (int x = 0; x < 32; ++x) {
+      std::vector<float> far;  // 2 or 3 away along one of the axes
+      for (int v = std::max(0, y - 3); v <= std::min(31, y + 3); ++v) {
+        for (int u = std::max(0, x - 3); u <= std::min(31, x + 3); ++u) {
+          if (std::max(std::abs(u - x), std::abs(v - y)) < 2) continue;
+          far.push_back(picture.pixels[0][static_cast<std::size_t>(v * 32 + u)]);
+        }
+      }
+      std::sort(far.rbegin(), far.rend());
+      float& own = expected[static_cast<std::size_t>(y * 32 + x)];
+      if (own <= far[2]) continue;
+      own = far[2];
+      ++peaks;
+    }
+  }
+  EXPECT_GT(peaks, 20u);
+  EXPECT_EQ(detail::LonePeaks(picture, 0).removed(), expected);
 }
 
 TEST(LinearBlend, IsBetweenTheCentresOfCells) {

@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "freqsynth/basis/config.h"
@@ -40,12 +42,13 @@ class LonePeaks {
   [[nodiscard]] NoisyPicture::Plane removed(const ExecutorRef& executor = {}) const {
     NoisyPicture::Plane result = pixels_;
     share_pieces(executor, picture_.height / block_size, [&](std::size_t row) {
+      std::vector<std::int32_t> brighter(picture_.width);
       for (std::size_t y = row * block_size; y < (row + 1) * block_size; ++y) {
+        count_brighter(y, brighter);
         for (std::size_t x = 0; x < picture_.width; ++x) {
-          const std::size_t pixel = y * picture_.width + x;
-          if (!may_be_peak(x, y)) continue;
+          if (brighter[x] >= std::int32_t{most_as_bright}) continue;
           const float most = usual_around(x, y);
-          if (pixels_[pixel] > most && is_of_one_sample(x, y, most)) result[pixel] = most;
+          if (is_of_one_sample(x, y, most)) result[y * picture_.width + x] = most;
         }
       }
     });
@@ -53,48 +56,50 @@ class LonePeaks {
   }
 
  private:
-  static constexpr std::size_t near = 1, far = 3;
+  static constexpr std::size_t near = 1, far = 3, most_as_bright = 3;
 
   [[nodiscard]] std::size_t block_of(std::size_t pixel) const {
     return pixel / picture_.width / block_size * blocks_x_ + pixel % picture_.width / block_size;
   }
-  /// Calls visit(u, v) for pixels up to `reach` away, until it returns false.
+  /// Calls visit(u, v) for pixels up to `reach` away.
   template <class Visit>
   void visit_around(std::size_t x, std::size_t y, std::size_t reach, const Visit& visit) const {
     for (std::size_t v = y - std::min(y, reach); v < std::min(y + reach + 1, picture_.height);
          ++v) {
       for (std::size_t u = x - std::min(x, reach); u < std::min(x + reach + 1, picture_.width);
            ++u) {
-        if (!visit(u, v)) return;
+        visit(u, v);
       }
     }
   }
-  /// Whether so few pixels in line with it are as bright that it can be one, as most are not.
-  [[nodiscard]] bool may_be_peak(std::size_t x, std::size_t y) const {
+  /// Of each pixel of a line, how many of those 2 or 3 away are as bright: pixel by pixel for one
+  /// neighbour after the other, which compilers make vectors of.
+  void count_brighter(std::size_t y, std::span<std::int32_t> counts) const {
     const std::size_t width = picture_.width;
-    if (x < far || x + far >= width || y < far || y + far >= picture_.height) return true;
-    const float* pixel = &pixels_[y * width + x];
-    const auto bright = [&](std::size_t distance) {
-      return (*(pixel - distance) >= *pixel ? 1 : 0) + (pixel[distance] >= *pixel ? 1 : 0);
-    };
-    int count = 0;
-    for (std::size_t distance = near + 1; distance <= far; ++distance) {
-      count += bright(distance) + bright(distance * width);
+    std::fill(counts.begin(), counts.end(), 0);
+    const float* const own = &pixels_[y * width];
+    for (std::size_t v = y - std::min(y, far); v < std::min(y + far + 1, picture_.height); ++v) {
+      const float* const line = &pixels_[v * width];
+      const bool all_far = v + near < y || v > y + near;
+      for (std::size_t shift = all_far ? 0 : near + 1; shift <= std::min(far, width - 1); ++shift) {
+        for (std::size_t x = shift; x < width; ++x) counts[x] += line[x - shift] >= own[x] ? 1 : 0;
+        if (shift == 0) continue;
+        for (std::size_t x = shift; x < width; ++x) {
+          counts[x - shift] += line[x] >= own[x - shift] ? 1 : 0;
+        }
+      }
     }
-    return count < 3;
   }
-  /// The third of the brightest pixels that are 2 or 3 away, or any as bright as the pixel itself.
+  /// The third of the brightest pixels that are 2 or 3 away.
   [[nodiscard]] float usual_around(std::size_t x, std::size_t y) const {
-    const float own = pixels_[y * picture_.width + x];
-    std::array<float, 3> most;
+    std::array<float, most_as_bright> most;
     most.fill(-std::numeric_limits<float>::infinity());
     visit_around(x, y, far, [&](std::size_t u, std::size_t v) {
-      if (u + near >= x && u <= x + near && v + near >= y && v <= y + near) return true;
+      if (u + near >= x && u <= x + near && v + near >= y && v <= y + near) return;
       float value = pixels_[v * picture_.width + u];
       for (float& other : most) {
         if (value > other) std::swap(value, other);
       }
-      return most.back() < own;
     });
     return most.back();
   }
@@ -105,7 +110,6 @@ class LonePeaks {
       const std::size_t pixel = v * picture_.width + u;
       const double usual = static_cast<double>(picture_.weights[pixel]) * static_cast<double>(most);
       excess += std::max(0.0, static_cast<double>(sums_[pixel]) - usual);
-      return true;
     });
     return squares_[block_of(y * picture_.width + x)] > share * excess * excess;
   }

@@ -203,26 +203,26 @@ FREQSYNTH_INLINE void smooth_noise_on(NoisyPicture& picture, std::span<const std
   std::vector<GuidedRegression::Guide> guides =
       feature_guides(picture, features, feature_samples, executor);
   const GuidedRegression::Window window = window_of(picture);
-  std::vector<NoisyPicture::Plane> pilots(channels.size());
+  std::vector<NoisyPicture::Plane> pilots(channels.size()), predictions(channels.size());
   bool first = true;
   for (const Pass& pass : passes) {
     for (std::size_t t = 0; t < channels.size(); ++t) {
       close_all(channels[t], pass.border);
       // A fit that knows of a peak follows it; the samples still have its light, which is spread.
-      pilots[t] =
-          first ? LonePeaks(picture, channels[t]).removed(executor) : picture.pixels[channels[t]];
-      const float* pilot = pilots[t].data();
+      if (first) pilots[t] = LonePeaks(picture, channels[t]).removed(executor);
+      const float* pilot = first ? pilots[t].data() : picture.pixels[channels[t]].data();
       guides.push_back({pilot, pilot, 0, pass.ridge, first ? variances[t].data() : nullptr, t});
     }
     const GuidedRegression regression(picture, window, guides, sums, executor);
-    std::vector<NoisyPicture::Plane> predictions;
-    for (const std::size_t channel : channels) predictions.push_back(picture.pixels[channel]);
+    for (std::size_t t = 0; t < channels.size(); ++t) {
+      predictions[t] = picture.pixels[channels[t]];
+    }
     regression.predict(std::vector<std::span<float>>(predictions.begin(), predictions.end()),
                        executor);
     for (std::size_t t = 0; t < channels.size(); ++t) {
       NoisyPicture::Plane& known = picture.pixels[channels[t]];
       hold_within(picture, known, predictions[t], executor);
-      known = std::move(predictions[t]);
+      known.swap(predictions[t]);
     }
     guides.clear();
     first = false;
