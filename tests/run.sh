@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: MIT
 # Builds and runs the tests in build/. On Debian, installs what they need and is missing.
 #   tests/run.sh [--sanitize | --threads] [--clang] [arguments of ctest]
-#     --sanitize  the unit tests only, with AddressSanitizer and UndefinedBehaviorSanitizer; with clang++
-#                 also fuzzing of all that is read, 20 s each
+#     --sanitize  the unit tests but the longest, with AddressSanitizer and UndefinedBehaviorSanitizer;
+#                 with clang++ also fuzzing of all that is read, 20 s each
 #     --threads   the tests with several threads only, with ThreadSanitizer
 #     --clang     with clang++
 set -euo pipefail
@@ -40,7 +40,7 @@ case $preset in
     # Otherwise the test that each header compiles alone would build them, one by one.
     targets+=(all_verify_interface_header_sets)
     ;;
-  sanitize) selection=(-L unit) ;;
+  sanitize) selection=(-L unit -LE long) ;;
   threads)
     selection=(-L concurrent)
     # ThreadSanitizer wants memory where it expects it.
