@@ -4,8 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
+#include <map>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -40,17 +43,21 @@ TEST(NodePositions, AreTheLatticeOfTheSequenceWhereNothingIsMoved) {
 }
 
 TEST(NodePositions, OfBlocksAreMovedByAShareOfTheSpacing) {
-  const NodePositions positions(5, perturbation), plain(5);
-  ASSERT_EQ(positions.classes(), 22u);
+  const NodePositions positions(5, perturbation);
+  ASSERT_EQ(positions.classes(), 53u);
   SampleSequence sequence(5, SamplePositions::lattice);
   std::size_t moved = 0;
   for (std::size_t i = 0; i < NodePositions::size; ++i) {
     const NodePosition& p = positions.of(0)[i];
-    const NodePosition& before = plain.of(0)[i];
+    const NodePosition& before = positions.homes()[i];
     // 4 samples lie on the lattice of spacing 1, 9 on that of 1/2, 25 on that of 1/4.
-    const double spacing = i < 4 ? 1 : i < 9 ? 0.5 : i < 25 ? 0.25 : 0.125;
-    const bool may = i >= 4 && i < NodePositions::moved;
-    const double most = may ? perturbation * spacing * NodePositions::edge + 0.5 : 0;
+    const double spacing = i < 4     ? 1
+                           : i < 9   ? 0.5
+                           : i < 25  ? 0.25
+                           : i < 81  ? 0.125
+                           : i < 289 ? 0.0625
+                                     : 0.03125;
+    const double most = i >= 4 ? perturbation * spacing * NodePositions::edge + 0.5 : 0;
     EXPECT_LE(std::abs(p.s - before.s), most) << i;
     EXPECT_LE(std::abs(p.t - before.t), most) << i;
     for (const int end : {0, NodePositions::edge}) {
@@ -63,7 +70,7 @@ TEST(NodePositions, OfBlocksAreMovedByAShareOfTheSpacing) {
     const NodePosition& partner = positions.of(0)[own.partner];
     EXPECT_TRUE(p.s == partner.s || p.t == partner.t) << i;
   }
-  EXPECT_GT(moved, 70u);
+  EXPECT_GT(moved, NodePositions::size - 20);
   EXPECT_NE(places(positions.of(0)), places(NodePositions(6, perturbation).of(0)));
 }
 
@@ -98,39 +105,111 @@ TEST_P(HandedDown, SamplesOfQuadrantsAreThoseOfTheWhole) {
           EXPECT_TRUE(same || i < 4);
         }
       }
-      // None is lost, but at the corners of the first nodes that have no list of their own.
+      // None is lost, but at the corners of pixels and of smaller nodes.
       EXPECT_EQ(all.size(), samples);
-      const bool last = positions.classes() == 22 && of >= 5 && of < 21;
+      const bool last = positions.classes() == 53 && of >= 5;
       EXPECT_EQ(elsewhere > 0, last) << of;
       EXPECT_LE(elsewhere, last ? 16u : 0u);
     }
   }
 }
 
-TEST_P(HandedDown, PointsOnBordersAreFoundByTheirPlace) {
+TEST_P(HandedDown, PointsOnBordersAreFoundByTheirHomes) {
   const NodePositions positions(2, GetParam());
-  for (std::size_t of = 0; of < positions.classes(); ++of) {
-    std::size_t found = 0;
-    for (std::uint32_t i = 0; i < NodePositions::size; ++i) {
-      const NodePosition& p = positions.of(of)[i];
-      const bool border = NodePositions::on_border(p);
-      EXPECT_EQ(positions.index_at(of, p), border ? i : NodePositions::none);
-      found += border ? 1 : 0;
+  std::size_t found = 0;
+  for (std::uint32_t i = 0; i < NodePositions::size; ++i) {
+    const NodePosition& home = positions.homes()[i];
+    const bool border = NodePositions::on_border(home);
+    EXPECT_EQ(positions.index_at(home), border ? i : NodePositions::none);
+    found += border ? 1 : 0;
+  }
+  EXPECT_EQ(found, 128u);
+  EXPECT_EQ(positions.index_at({1, 0}), NodePositions::none);
+  EXPECT_EQ(positions.index_at({0, -512}), NodePositions::none);
+}
+
+/// All nodes of a block, with the places of samples in it.
+class Walk {
+ public:
+  explicit Walk(const NodePositions& positions) : positions_(positions) { visit(0, 0, 0, 0); }
+
+  std::map<std::pair<int, int>, std::pair<int, int>> places;  // by homes
+  std::size_t twice = 0, elsewhere = 0;
+
+ private:
+  void visit(std::size_t of, int depth, int column, int row) {
+    const auto place = [&](const NodePosition& p) {
+      const int s = column * NodePositions::edge + p.s, t = row * NodePositions::edge + p.t;
+      EXPECT_EQ(s % (1 << depth), 0);
+      EXPECT_EQ(t % (1 << depth), 0);
+      return std::pair(s >> depth, t >> depth);
+    };
+    for (std::size_t i = 0; i < 289; ++i) {
+      // What is finer than the last lattice of the deepest nodes has no whole steps there.
+      const auto [s, t] = place(positions_.homes()[i]);
+      const auto there = place(positions_.of(of)[i]);
+      const auto known = places.emplace(std::pair(s, t), there);
+      if (known.second) continue;
+      ++twice;
+      if (known.first->second == there) continue;
+      // Only corners of pixels, and of what is smaller, lie where others have theirs moved.
+      ++elsewhere;
+      EXPECT_LT(i, 4u) << depth;
+      EXPECT_GE(depth, 3);
     }
-    EXPECT_GE(found, 116u);
-    EXPECT_EQ(positions.index_at(of, {1, 0}), NodePositions::none);
-    EXPECT_EQ(positions.index_at(of, {0, -512}), NodePositions::none);
+    if (depth == 5) return;
+    for (int k = 0; k < 4; ++k) {
+      visit(positions_.quadrant_class(of, static_cast<std::size_t>(k)), depth + 1,
+            2 * column + k % 2, 2 * row + k / 2);
+    }
+  }
+
+  const NodePositions& positions_;
+};
+
+TEST_P(HandedDown, AllNodesThatShareASampleHaveItAtTheSamePlace) {
+  const NodePositions positions(4, GetParam());
+  const Walk walk(positions);
+  EXPECT_GT(walk.twice, 50000u);
+  EXPECT_EQ(walk.elsewhere > 0, GetParam() > 0);
+  // And the block beside it does.
+  for (const auto& [home, place] : walk.places) {
+    if (home.first != 0) continue;
+    const auto opposite = walk.places.find({NodePositions::edge, home.second});
+    ASSERT_NE(opposite, walk.places.end());
+    EXPECT_EQ(opposite->second, std::pair(NodePositions::edge, place.second));
+    EXPECT_EQ(place.first, 0);
   }
 }
 
-TEST(NodePositions, OfQuadrantsBehindTheFirstLieOnTheLattice) {
+TEST(NodePositions, OfSmallNodesDoNotRepeatWithTheLattice) {
   const NodePositions positions(2, perturbation), plain(2);
-  for (std::size_t of = 1; of < positions.classes(); ++of) {
-    for (std::size_t i = 25; i < NodePositions::size; ++i) {
-      ASSERT_EQ(positions.of(of)[i], plain.of(0)[i]);
+  for (std::size_t of = 21; of < positions.classes(); ++of) {
+    for (const std::size_t samples : {81u, 289u}) {
+      std::set<int> columns, rows;
+      // Those in the first half of each of four, eight, .. waves along the edge.
+      std::array<double, 2> in_light{}, below_light{};
+      for (std::size_t i = 0; i < samples; ++i) {
+        const NodePosition& p = positions.of(of)[i];
+        columns.insert(p.s);
+        rows.insert(p.t);
+        for (int k = 0; k < 2; ++k) {
+          const int wave = NodePositions::edge >> (2 + k);
+          in_light[static_cast<std::size_t>(k)] += (p.s + wave) % wave < wave / 2 ? 1 : 0;
+          below_light[static_cast<std::size_t>(k)] += (p.t + wave) % wave < wave / 2 ? 1 : 0;
+        }
+      }
+      // 9 or 17 on the plain lattice.
+      EXPECT_GE(columns.size(), samples / 3) << of;
+      EXPECT_GE(rows.size(), samples / 3) << of;
+      // All of them on the plain lattice of 81 for eight waves.
+      const auto count = static_cast<double>(samples);
+      for (std::size_t k = 0; k < 2; ++k) {
+        EXPECT_NEAR(in_light[k] / count, 0.5, 0.15) << of << " " << k;
+        EXPECT_NEAR(below_light[k] / count, 0.5, 0.15) << of << " " << k;
+      }
     }
   }
-  EXPECT_TRUE(std::equal(positions.of(21).begin(), positions.of(21).end(), plain.of(0).begin()));
 }
 
 TEST(NodePositions, RefuseMovesThatWouldMeet) {

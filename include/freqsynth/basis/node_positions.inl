@@ -16,46 +16,67 @@ FREQSYNTH_INLINE NodePositions::NodePositions(std::uint64_t seed, double perturb
   detail::require(perturbation >= 0 && perturbation <= 0.45, "perturbation", perturbation,
                   "in [0, 0.45]");
   SampleSequence sequence(seed, SamplePositions::lattice);
-  List plain;
-  plain.reserve(size);
+  homes_.reserve(size);
   spacing_.reserve(size);
   for (std::size_t i = 0; i < size; ++i) {
     const SequencePosition& position = sequence[i];
-    plain.push_back({static_cast<std::int32_t>(position.s * edge),
-                     static_cast<std::int32_t>(position.t * edge)});
+    homes_.push_back({static_cast<std::int32_t>(position.s * edge),
+                      static_cast<std::int32_t>(position.t * edge)});
     spacing_.push_back(position.spacing);
   }
-  set_parents(plain);
+  set_homes();
   if (perturbation == 0) {
-    for (std::size_t side = block_size; side > 0; side /= 2) add(plain, side);
+    for (std::size_t side = block_size; side > 0; side /= 2) add(homes_, side);
     return;
   }
-  List root = plain;
+  pattern_ = pattern_of(perturbation);
+  half_pattern_ = pattern_of(of_half * perturbation);
+  List root = homes_;
   move(root, seed, perturbation);
+  follow_pattern(root, {0, 0, 0});
   add(std::move(root), block_size);
-  for (std::size_t k = 0; k < 4; ++k) add(quadrant_of(positions_[0], plain, k), block_size / 2);
-  for (std::size_t parent = 1; parent <= 4; ++parent) {
+  for (std::size_t k = 0; k < 4; ++k) {
+    add(quadrant_of(positions_[0], k, {1, k % 2, k / 2}), block_size / 2);
+  }
+  for (std::size_t parent = 0; parent < 4; ++parent) {
     for (std::size_t k = 0; k < 4; ++k) {
-      add(quadrant_of(positions_[parent], plain, k), block_size / 4);
+      const Spot spot{2, 2 * (parent % 2) + k % 2, 2 * (parent / 2) + k / 2};
+      add(quadrant_of(positions_[parent + 1], k, spot), block_size / 4);
     }
   }
-  add(plain, 1);
+  for (const std::size_t depth : {std::size_t{3}, std::size_t{4}}) {
+    for (std::size_t k = 0; k < repeats; ++k) {
+      List deep = homes_;
+      follow_pattern(deep, {depth, k % period, k / period});
+      add(std::move(deep), 1);
+    }
+  }
 }
 
 FREQSYNTH_INLINE std::size_t NodePositions::quadrant_class(std::size_t of,
                                                            std::size_t quadrant) const {
+  constexpr std::size_t first = 21;  // of depth 3
   if (classes() == 4) return std::min<std::size_t>(of + 1, 3);
-  return of < 5 ? 4 * of + 1 + quadrant : 21;
+  if (of < 5) return 4 * of + 1 + quadrant;
+  // Its place in the pattern, as far as that repeats.
+  std::size_t column = quadrant % 2, row = quadrant / 2;
+  if (of < first) {
+    const std::size_t parent = (of - 5) / 4, k = (of - 5) % 4;
+    column += 2 * (2 * (parent % 2) + k % 2);
+    row += 2 * (2 * (parent / 2) + k / 2);
+  } else {
+    column += 2 * ((of - first) % repeats % period);
+    row += 2 * ((of - first) % repeats / period);
+  }
+  return first + (of < first ? 0 : repeats) + (row % period) * period + column % period;
 }
 
-FREQSYNTH_INLINE std::uint32_t NodePositions::index_at(std::size_t of,
-                                                       const NodePosition& point) const {
-  const std::vector<Border>& border = borders_[of];
-  const std::uint64_t wanted = key(point);
+FREQSYNTH_INLINE std::uint32_t NodePositions::index_at(const NodePosition& home) const {
+  const std::uint64_t wanted = key(home);
   const auto found =
-      std::lower_bound(border.begin(), border.end(), wanted,
+      std::lower_bound(border_.begin(), border_.end(), wanted,
                        [](const Border& one, std::uint64_t at) { return one.key < at; });
-  return found != border.end() && found->key == wanted ? found->index : none;
+  return found != border_.end() && found->key == wanted ? found->index : none;
 }
 
 FREQSYNTH_INLINE bool NodePositions::same_place(std::size_t parent, std::size_t quadrant,
@@ -67,16 +88,19 @@ FREQSYNTH_INLINE bool NodePositions::same_place(std::size_t parent, std::size_t 
   return own.s + right == 2 * there.s && own.t + down == 2 * there.t;
 }
 
-/// Finds the samples of quadrants among those of the whole, on the plain lattice.
-FREQSYNTH_INLINE void NodePositions::set_parents(const List& plain) {
+/// Finds by their homes those on the border, and the samples of quadrants among the whole's.
+FREQSYNTH_INLINE void NodePositions::set_homes() {
   std::vector<Border> all(size);
-  for (std::uint32_t i = 0; i < size; ++i) all[i] = {key(plain[i]), i};
+  for (std::uint32_t i = 0; i < size; ++i) all[i] = {key(homes_[i]), i};
   const auto by_key = [](const Border& a, const Border& b) { return a.key < b.key; };
   std::sort(all.begin(), all.end(), by_key);
+  for (const Border& one : all) {
+    if (on_border(homes_[one.index])) border_.push_back(one);
+  }
   for (std::size_t k = 0; k < 4; ++k) {
     for (std::size_t i = 0; i < in_parent_[k].size(); ++i) {
-      const NodePosition there = {(plain[i].s + static_cast<std::int32_t>(k & 1) * edge) / 2,
-                                  (plain[i].t + static_cast<std::int32_t>(k >> 1) * edge) / 2};
+      const NodePosition there = {(homes_[i].s + static_cast<std::int32_t>(k & 1) * edge) / 2,
+                                  (homes_[i].t + static_cast<std::int32_t>(k >> 1) * edge) / 2};
       const auto found = std::lower_bound(all.begin(), all.end(), Border{key(there), 0}, by_key);
       FREQSYNTH_ASSERT(found != all.end() && found->key == key(there));
       in_parent_[k][i] = found->index;
@@ -84,7 +108,7 @@ FREQSYNTH_INLINE void NodePositions::set_parents(const List& plain) {
   }
 }
 
-/// Moves the first positions of a block.
+/// Moves the first positions of a block, at the corners of its pixels.
 FREQSYNTH_INLINE void NodePositions::move(List& list, std::uint64_t seed,
                                           double perturbation) const {
   const std::uint64_t stream = detail::mix_bits(seed + 7 * detail::golden_step);
@@ -109,11 +133,55 @@ FREQSYNTH_INLINE void NodePositions::move(List& list, std::uint64_t seed,
   }
 }
 
-/// The positions of a quadrant: what the whole has of it where that is, then the lattice.
+/// Moves that are evenly spread over the lines of a lattice.
+FREQSYNTH_INLINE NodePositions::Pattern NodePositions::pattern_of(double perturbation) {
+  // Each line of samples is moved as a whole along itself, so that it stays even; lines beside each
+  // other, and those of centres and of middles, are not in step.
+  constexpr std::array<double, period> shares = {-0.75, 0.25, -0.25, 0.75};
+  Pattern pattern{};
+  for (std::size_t kind = 0; kind < pattern.size(); ++kind) {
+    for (std::size_t i = 0; i < repeats; ++i) {
+      const std::size_t line = kind % 2 == 0 ? i / period : i % period;
+      const double share = shares[(line + kind / 2) % period];
+      pattern[kind][i] = static_cast<std::int32_t>(std::lround(32 * perturbation * share));
+    }
+  }
+  return pattern;
+}
+
+/// Moves the positions of a node that are of finer lattices than that of the pixels' corners, or
+/// the node's where it is smaller.
+FREQSYNTH_INLINE void NodePositions::follow_pattern(List& list, const Spot& spot) const {
+  const std::int32_t coarsest = spot.depth < 3 ? edge >> (3 - spot.depth) : edge;
+  constexpr auto repeat = static_cast<std::int32_t>(period);
+  for (NodePosition& p : list) {
+    const std::int32_t s = p.s, t = p.t;
+    if (s % coarsest == 0 && t % coarsest == 0) continue;
+    // The spacing of the coarsest lattice that has it, whose cells before it were twice as large.
+    std::int32_t spacing = coarsest / 2;
+    while (s % spacing != 0 || t % spacing != 0) spacing /= 2;
+    const std::int32_t cells = edge / (2 * spacing);
+    const auto cell = [&](std::size_t node, std::int32_t at) {
+      return (static_cast<std::int32_t>(node % period) * cells + at / (2 * spacing)) % repeat;
+    };
+    const bool half = (edge / spacing) << spot.depth == 2 * std::int32_t{block_size};
+    const Pattern& pattern = half ? half_pattern_ : pattern_;
+    const std::int32_t column = cell(spot.column, s), row = cell(spot.row, t);
+    const auto place = static_cast<std::size_t>(row * repeat + column);
+    const bool across = s % (2 * spacing) != 0, down = t % (2 * spacing) != 0;
+    const std::size_t kind = across && down ? 0 : across ? 2 : 4;
+    // Borders of blocks are among those where the pattern begins.
+    if (across || column != 0) p.s += pattern[kind][place] * (spacing / 32);
+    if (down || row != 0) p.t += pattern[kind + 1][place] * (spacing / 32);
+  }
+}
+
+/// The positions of a quadrant: the first of the whole's where these are, then the finer ones.
 FREQSYNTH_INLINE NodePositions::List NodePositions::quadrant_of(const List& parent,
-                                                                const List& plain,
-                                                                std::size_t quadrant) const {
-  List list = plain;
+                                                                std::size_t quadrant,
+                                                                const Spot& spot) const {
+  List list = homes_;
+  follow_pattern(list, spot);
   for (std::size_t i = 0; i < handed_down(moved); ++i) {
     const NodePosition& there = parent[in_parent_[quadrant][i]];
     list[i] = {2 * there.s - static_cast<std::int32_t>(quadrant & 1) * edge,
@@ -123,13 +191,6 @@ FREQSYNTH_INLINE NodePositions::List NodePositions::quadrant_of(const List& pare
 }
 
 FREQSYNTH_INLINE void NodePositions::add(List list, std::size_t pixels) {
-  std::vector<Border> border;
-  for (std::uint32_t i = 0; i < list.size(); ++i) {
-    if (on_border(list[i])) border.push_back({key(list[i]), i});
-  }
-  std::sort(border.begin(), border.end(),
-            [](const Border& a, const Border& b) { return a.key < b.key; });
-  borders_.push_back(std::move(border));
   positions_.push_back(std::move(list));
   pixels_.push_back(pixels);
 }

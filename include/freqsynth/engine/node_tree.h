@@ -108,6 +108,15 @@ class NodeTree {
   [[nodiscard]] bool waits(std::uint32_t leaf) const {
     return nodes_[leaf].samples < nodes_[leaf].held;
   }
+  /// Calls visit(index, value) for each value of a channel that a leaf knows, those that wait
+  /// included.
+  template <class Visit>
+  void visit_known(std::uint32_t leaf, std::size_t channel, Visit&& visit) const {
+    const TreeNode& node = nodes_[leaf];
+    for (std::uint32_t i = 0; i < std::max(node.samples, node.held); ++i) {
+      if (has(node, i)) visit(i, store_.row(node.chunk, 2 * channel)[i]);
+    }
+  }
   /// Mean of all values of a channel that a leaf knows, those that wait included; 0 without any.
   [[nodiscard]] float known_mean(std::uint32_t leaf, std::size_t channel) const;
   /// The expected squared error of that mean, if values had nothing to do with each other; 0 with
@@ -124,7 +133,13 @@ class NodeTree {
   void set_factors(std::uint32_t leaf, std::span<const float> factors);
 
   /// Place of a position of a node.
-  [[nodiscard]] TreePlace place(std::uint32_t number, std::size_t index) const;
+  [[nodiscard]] TreePlace place(std::uint32_t number, std::size_t index) const {
+    return place(number, positions_->of(nodes_[number].of)[index]);
+  }
+  /// Place of its home, which all nodes that share it touch; see NodePositions.
+  [[nodiscard]] TreePlace home(std::uint32_t number, std::size_t index) const {
+    return place(number, positions_->homes()[index]);
+  }
   /// That place in pixels.
   [[nodiscard]] BlockGrid::Point point(const TreePlace& place) const;
   /// The area of a node in pixels.
@@ -159,6 +174,7 @@ class NodeTree {
   }
   friend struct TreeArchive;
 
+  [[nodiscard]] TreePlace place(std::uint32_t number, const NodePosition& position) const;
   bool find_next(std::uint32_t leaf);
   std::uint32_t add_quadrants(std::uint32_t parent);
   void hand_down(std::uint32_t parent, std::size_t quadrant, std::size_t count);

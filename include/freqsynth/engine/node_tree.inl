@@ -50,33 +50,28 @@ inline double NodeTree::squares(std::uint32_t leaf) const {
 }
 
 inline float NodeTree::known_mean(std::uint32_t leaf, std::size_t channel) const {
-  const TreeNode& node = nodes_[leaf];
   double sum = 0;
   std::size_t count = 0;
-  for (std::uint32_t i = 0; i < std::max(node.samples, node.held); ++i) {
-    if (!has(node, i)) continue;
-    sum += double{store_.row(node.chunk, 2 * channel)[i]};
+  visit_known(leaf, channel, [&](std::uint32_t, float value) {
+    sum += double{value};
     ++count;
-  }
+  });
   return count > 0 ? static_cast<float>(sum / static_cast<double>(count)) : 0.0f;
 }
 
 inline double NodeTree::known_error(std::uint32_t leaf, std::size_t channel) const {
-  const TreeNode& node = nodes_[leaf];
   const double mean = double{known_mean(leaf, channel)};
   double sum = 0, count = 0;
-  for (std::uint32_t i = 0; i < std::max(node.samples, node.held); ++i) {
-    if (!has(node, i)) continue;
-    const double off = double{store_.row(node.chunk, 2 * channel)[i]} - mean;
+  visit_known(leaf, channel, [&](std::uint32_t, float value) {
+    const double off = double{value} - mean;
     sum += off * off;
     ++count;
-  }
+  });
   return count > 1 ? sum / (count * (count - 1)) : 0;
 }
 
-inline TreePlace NodeTree::place(std::uint32_t number, std::size_t index) const {
+inline TreePlace NodeTree::place(std::uint32_t number, const NodePosition& position) const {
   const TreeNode& node = nodes_[number];
-  const NodePosition& position = positions_->of(node.of)[index];
   const auto steps = [&](std::size_t block, std::uint16_t of, std::int32_t at) {
     const std::int64_t inside = std::int64_t{of} * NodePositions::edge + at;
     FREQSYNTH_ASSERT(inside % (std::int64_t{1} << node.depth) == 0);
@@ -161,17 +156,20 @@ inline bool NodeTree::find_next(std::uint32_t leaf) {
     take(leaf, index);
     return true;
   }
-  if (!NodePositions::on_border(positions_->of(node.of)[index])) return false;
+  if (!NodePositions::on_border(positions_->homes()[index])) return false;
   bool found = false;
-  visit_touching(place(leaf, index), [&](std::uint32_t other, const NodePosition& there) {
+  const TreePlace wanted = place(leaf, index);
+  visit_touching(home(leaf, index), [&](std::uint32_t other, const NodePosition& there) {
     if (found || other == leaf) return;
-    const std::uint32_t at = positions_->index_at(nodes_[other].of, there);
+    const std::uint32_t at = positions_->index_at(there);
     if (at == NodePositions::none || !has(nodes_[other], at)) return;
+    // Corners of deeper nodes stay where others have theirs moved.
+    if (!(place(other, at) == wanted)) return;
     take(other, at);
     found = true;
   });
   if (found || kept_.empty()) return found;
-  const auto kept = kept_.find(key(place(leaf, index)));
+  const auto kept = kept_.find(key(wanted));
   if (kept == kept_.end()) return false;
   std::copy_n(kept_values_.begin() + static_cast<std::ptrdiff_t>(kept->second), channels(),
               found_.begin());
@@ -239,8 +237,8 @@ inline void NodeTree::hand_down(std::uint32_t parent, std::size_t quadrant, std:
 
 /// A block beside this one may still come to a sample that the deeper nodes here cannot use.
 inline void NodeTree::keep_for_others(std::uint32_t parent, std::size_t index) {
-  const TreePlace at = place(parent, index);
-  if (at.x % NodePositions::edge != 0 && at.y % NodePositions::edge != 0) return;
+  const TreePlace lattice = home(parent, index), at = place(parent, index);
+  if (lattice.x % NodePositions::edge != 0 && lattice.y % NodePositions::edge != 0) return;
   if (!kept_.emplace(key(at), kept_values_.size()).second) return;
   for (std::size_t c = 0; c < channels(); ++c) {
     kept_values_.push_back(store_.row(nodes_[parent].chunk, 2 * c)[index]);

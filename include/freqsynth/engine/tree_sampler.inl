@@ -104,14 +104,14 @@ inline void TreeSampler::take_in(std::span<const float> values) {
   }
   for (std::size_t i = 0; i < wave_.size(); ++i) {
     const std::uint32_t leaf = owners_[i];
-    const TreePlace place = tree_.place(leaf, tree_.node(leaf).samples);
+    const TreePlace home = tree_.home(leaf, tree_.node(leaf).samples);
     std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(i * channels), channels,
                 values_.begin());
     repair(leaf);
     tree_.absorb(leaf, values_.data());
     tree_.advance(leaf);
     note(leaf);
-    tree_.visit_touching(place, [&](std::uint32_t other, const NodePosition&) {
+    tree_.visit_touching(home, [&](std::uint32_t other, const NodePosition&) {
       if (other != leaf && tree_.advance(other) > 0) note(other);
     });
   }

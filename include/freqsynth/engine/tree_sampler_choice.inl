@@ -70,7 +70,7 @@ inline void TreeSampler::ask() {
   borders_.clear();
   for (std::size_t i = 0; i < chosen_.size(); ++i) {
     const TreeNode& node = tree_.node(chosen_[i]);
-    if (!NodePositions::on_border(positions_.of(node.of)[node.samples])) continue;
+    if (!NodePositions::on_border(positions_.homes()[node.samples])) continue;
     borders_.push_back({name_of(tree_.place(chosen_[i], node.samples)), i});
   }
   std::sort(borders_.begin(), borders_.end(), [](const Border& a, const Border& b) {
