@@ -122,6 +122,7 @@ set(FREQSYNTH_LAYERS
   "image/leaf_picture.h|a picture from what leaves have for their pixels and those around|"
   "image/node_pixels.h|a picture from the leaves of a tree|"
   "image/tree_ring.h|samples around a block of a tree, whoever knows them by now|"
+  "image/constant_pixels.h|where the picture of a tree is constant within each pixel|"
   "image/tree_pictures.h|a picture from the leaves of a tree by a bank of priors|"
   "image/tree_images.h|images of a tree of nodes, for hosts|"
   "jpeg/quantization_target.h|a stop rule and priority for a synthesis that ends in a quantiser|1, 2, 6"

@@ -17,6 +17,7 @@
 #include "freqsynth/engine/executor.h"
 #include "freqsynth/engine/node_tree.h"
 #include "freqsynth/image/bank_picture.h"
+#include "freqsynth/image/constant_pixels.h"
 #include "freqsynth/image/frequency_image.h"
 #include "freqsynth/image/leaf_picture.h"
 #include "freqsynth/image/tree_ring.h"
@@ -29,7 +30,9 @@ namespace freqsynth {
 ///
 /// Each leaf is estimated from its own samples and, where it is a block whose eight neighbours have
 /// had enough, from those of a ring around (BankPictureSettings::ring). An estimate goes on
-/// beyond its leaf: near the border of two leaves both sides' are blended.
+/// beyond its leaf: near the border of two leaves both sides' are blended. Where the samples show a
+/// picture that is constant within each pixel, pixels are what their own samples say
+/// (image/constant_pixels.h).
 ///
 /// What leaves are estimated to be is kept: a leaf is estimated again when a sample has changed
 /// that it depends on, so that a picture of a tree that has grown a little is made soon. So are the

@@ -232,10 +232,12 @@ inline std::vector<float> TreePictures::blended(const NodeTree& tree,
   const auto margin = [&](std::uint32_t leaf) {
     return estimated(tree, leaf) ? margin_of(positions_->pixels(tree.node(leaf).of)) : 0;
   };
-  return detail::blend_leaves(tree, channels_, executor, margin,
-                              [&](std::uint32_t leaf, std::vector<float>& scratch) {
-                                return numbers_of(tree, leaf, scratch);
-                              });
+  std::vector<float> pixels = detail::blend_leaves(
+      tree, channels_, executor, margin, [&](std::uint32_t leaf, std::vector<float>& scratch) {
+        return numbers_of(tree, leaf, scratch);
+      });
+  detail::ConstantPixels(tree, executor).set_pixels(pixels, executor);
+  return pixels;
 }
 
 inline detail::LeafNumbers TreePictures::numbers_of(const NodeTree& tree, std::uint32_t leaf,
@@ -276,8 +278,10 @@ inline std::vector<float> TreePictures::squared_errors(const NodeTree& tree,
     }
     return detail::LeafNumbers{scratch.data(), nullptr, 0};
   };
-  return detail::blend_leaves(
+  std::vector<float> errors = detail::blend_leaves(
       tree, 1, executor, [](std::uint32_t) { return std::size_t{0}; }, numbers);
+  detail::ConstantPixels(tree, executor).lower_errors(errors, executor);
+  return errors;
 }
 
 inline FrequencyImage TreePictures::image_of(const NodeTree& tree,
