@@ -139,8 +139,8 @@ inline void NodeTree::set_factors(std::uint32_t leaf, std::span<const float> fac
 inline void NodeTree::set_scale(std::uint32_t leaf) {
   TreeNode& node = nodes_[leaf];
   if (node.samples < 2) return;
-  // Finite, and so are sums of it.
-  node.scale = static_cast<float>(std::min(squares(leaf) / (node.samples - 1), 1e30));
+  // Finite, and so are sums of it; below what a saved one may hold when it is rounded, too.
+  node.scale = static_cast<float>(std::min(squares(leaf) / (node.samples - 1), 0.99e30));
 }
 
 /// Whether the next sample is known; then its values are in `found_`.
