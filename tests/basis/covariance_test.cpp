@@ -64,6 +64,24 @@ TEST(Covariance, IsItsFormula) {
   }
 }
 
+TEST(Covariance, OfManyDifferencesIsThatOfEach) {
+  oracle::Random random(2);
+  std::vector<double> s(601), t(s.size()), values(s.size());
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    s[i] = random.uniform(-3, 3);
+    t[i] = random.uniform(-3, 3);
+  }
+  for (const Covariance& covariance : oracle::covariances()) {
+    const CovarianceFunction function(covariance);
+    for (const std::size_t count : {std::size_t{1}, std::size_t{255}, s.size()}) {
+      function.values(s.data(), t.data(), count, values.data());
+      for (std::size_t i = 0; i < count; ++i) {
+        ASSERT_EQ(values[i], function({s[i], t[i]})) << oracle::name(covariance);
+      }
+    }
+  }
+}
+
 TEST(Covariance, ReachesFarthestAlongItsDirection) {
   const CovarianceFunction function(
       Covariance::oriented(CovarianceShape::exponential, 20, 1, oracle::radians(30), 0));

@@ -10,6 +10,7 @@
 
 #include "freqsynth/basis/config.h"
 #include "freqsynth/basis/covariance.h"
+#include "freqsynth/basis/kernels.h"
 
 namespace freqsynth {
 
@@ -68,16 +69,19 @@ class FREQSYNTH_API BoxCovariance {
   [[nodiscard]] double with_box(UnitPoint d) const;
 
  private:
-  [[nodiscard]] double with_box_at(UnitPoint corner) const;
-  [[nodiscard]] double flux(UnitPoint from, UnitPoint to) const;
-  [[nodiscard]] double flux_of_part(UnitPoint from, UnitPoint step) const;
-  [[nodiscard]] double flux_density(double q) const;
+  /// What is evaluated together: lines, in scaled coordinates, or nodes within a box.
+  struct Work;
+
+  [[nodiscard]] double with_box_at(UnitPoint corner, Work& work) const;
+  void add_line(UnitPoint from, UnitPoint to, Work& work) const;
+  void add_part(UnitPoint from, UnitPoint step, Work& work) const;
+  void find_fluxes(Work& work) const;
 
   CovarianceFunction function_;
   AverageGrid grid_;
   bool by_edges_ = false;
-  double scaled_area_ = 0;              // of a box, in scaled coordinates
-  std::array<double, 16> series_ = {};  // of the flux density for small distances
+  double scaled_area_ = 0;                       // of a box, in scaled coordinates
+  std::array<double, flux_series> series_ = {};  // of the flux density for small distances
   Quadrature rule_, outer_;
 };
 

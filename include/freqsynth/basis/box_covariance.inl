@@ -10,6 +10,7 @@
 
 #include "freqsynth/basis/box_covariance.h"
 #include "freqsynth/basis/check.h"
+#include "freqsynth/basis/kernels.h"
 #include "freqsynth/basis/rounding.h"
 
 namespace freqsynth::detail {
@@ -70,61 +71,102 @@ FREQSYNTH_ROUNDING FREQSYNTH_INLINE BoxCovariance::BoxCovariance(const Covarianc
   }
 }
 
-/// The integral of the covariance over the disc of radius q, by 2 pi q^2: times the vector to a
-/// place it is a field whose divergence there is the covariance.
-FREQSYNTH_ROUNDING inline double BoxCovariance::flux_density(double q) const {
+struct BoxCovariance::Work {
+  std::vector<double> distances;     // from the origin, at the nodes of each part
+  std::vector<double> densities;     // there, see FluxDensities
+  std::vector<double> areas;         // of each part: twice that of its triangle with the origin
+  std::vector<bool> last;            // of each part, whether it is the last one of its line
+  std::vector<double> fluxes;        // of each line
+  std::vector<double> s, t, values;  // at nodes within a box
+
+  void clear() {
+    distances.clear();
+    areas.clear();
+    last.clear();
+    fluxes.clear();
+  }
+};
+
+FREQSYNTH_ROUNDING inline void BoxCovariance::add_part(UnitPoint from, UnitPoint step,
+                                                       Work& work) const {
   FREQSYNTH_ROUNDING_BEGIN
-  if (q < 0.7) {
-    double sum = 0;
-    for (std::size_t k = series_.size(); k-- > 0;) sum = sum * q + series_[k];
-    return sum;
+  for (const double node : rule_.nodes) {
+    const double x = from.s + node * step.s, y = from.t + node * step.t;
+    work.distances.push_back(std::sqrt(x * x + y * y));
   }
-  const double square = q * q;
-  const double left = exp_minus(q);
-  if (function_.covariance().shape == CovarianceShape::exponential) {
-    return (1 - (1 + q) * left) / square;
-  }
-  return (3 - (square + 3 * q + 3) * left) / square;
+  work.areas.push_back(from.s * step.t - from.t * step.s);
+  work.last.push_back(true);
 }
 
-FREQSYNTH_ROUNDING inline double BoxCovariance::flux_of_part(UnitPoint from, UnitPoint step) const {
-  FREQSYNTH_ROUNDING_BEGIN
-  double sum = 0;
-  for (std::size_t i = 0; i < rule_.nodes.size(); ++i) {
-    const double x = from.s + rule_.nodes[i] * step.s, y = from.t + rule_.nodes[i] * step.t;
-    sum += rule_.weights[i] * flux_density(std::sqrt(x * x + y * y));
-  }
-  return sum * (from.s * step.t - from.t * step.s);
-}
-
-/// Flux of that field through the line between two places, in scaled coordinates.
-FREQSYNTH_ROUNDING inline double BoxCovariance::flux(UnitPoint from, UnitPoint to) const {
+/// One more line between two places.
+FREQSYNTH_ROUNDING inline void BoxCovariance::add_line(UnitPoint from, UnitPoint to,
+                                                       Work& work) const {
   FREQSYNTH_ROUNDING_BEGIN
   const UnitPoint step{to.s - from.s, to.t - from.t};
   // Where the line is nearest the function bends most.
   const double nearest = -(from.s * step.s + from.t * step.t) / (step.s * step.s + step.t * step.t);
-  if (!(nearest > 0 && nearest < 1)) return flux_of_part(from, step);
+  if (!(nearest > 0 && nearest < 1)) {
+    add_part(from, step, work);
+    return;
+  }
   const UnitPoint part{nearest * step.s, nearest * step.t};
   const UnitPoint middle{from.s + part.s, from.t + part.t};
-  return flux_of_part(from, part) + flux_of_part(middle, {to.s - middle.s, to.t - middle.t});
+  add_part(from, part, work);
+  work.last.back() = false;
+  add_part(middle, {to.s - middle.s, to.t - middle.t}, work);
+}
+
+/// Through each line the flux of a field whose divergence is the covariance: the vector from the
+/// origin to a place, times the flux density there.
+FREQSYNTH_ROUNDING inline void BoxCovariance::find_fluxes(Work& work) const {
+  FREQSYNTH_ROUNDING_BEGIN
+  work.densities.resize(work.distances.size());
+  const bool rough = function_.covariance().shape == CovarianceShape::exponential;
+  flux_densities(work.distances.data(), work.distances.size(), series_.data(), rough,
+                 work.densities.data());
+  const double* density = work.densities.data();
+  double flux = 0;
+  for (std::size_t part = 0; part < work.areas.size(); ++part) {
+    double sum = 0;
+    for (const double weight : rule_.weights) sum += weight * *density++;
+    flux += sum * work.areas[part];
+    if (!work.last[part]) continue;
+    work.fluxes.push_back(flux);
+    flux = 0;
+  }
 }
 
 /// Covariance of the value at the origin with the average of the box whose corner is there.
-FREQSYNTH_ROUNDING inline double BoxCovariance::with_box_at(UnitPoint corner) const {
+FREQSYNTH_ROUNDING inline double BoxCovariance::with_box_at(UnitPoint corner, Work& work) const {
   FREQSYNTH_ROUNDING_BEGIN
   if (by_edges_) {
     const double s = corner.s, t = corner.t, edge = grid_.edge;
     const UnitPoint a = function_.scaled(corner), b = function_.scaled({s + edge, t});
     const UnitPoint c = function_.scaled({s + edge, t + edge}), d = function_.scaled({s, t + edge});
-    return (flux(a, b) + flux(b, c) + flux(c, d) + flux(d, a)) / scaled_area_;
+    work.clear();
+    add_line(a, b, work);
+    add_line(b, c, work);
+    add_line(c, d, work);
+    add_line(d, a, work);
+    find_fluxes(work);
+    const double* const flux = work.fluxes.data();
+    return (flux[0] + flux[1] + flux[2] + flux[3]) / scaled_area_;
   }
-  double sum = 0;
-  for (std::size_t j = 0; j < rule_.nodes.size(); ++j) {
-    double row = 0;
-    for (std::size_t i = 0; i < rule_.nodes.size(); ++i) {
-      row += rule_.weights[i] * function_({corner.s + rule_.nodes[i] * grid_.edge,
-                                           corner.t + rule_.nodes[j] * grid_.edge});
+  const std::size_t nodes = rule_.nodes.size(), all = nodes * nodes;
+  work.s.resize(all);
+  work.t.resize(all);
+  work.values.resize(all);
+  for (std::size_t j = 0; j < nodes; ++j) {
+    for (std::size_t i = 0; i < nodes; ++i) {
+      work.s[j * nodes + i] = corner.s + rule_.nodes[i] * grid_.edge;
+      work.t[j * nodes + i] = corner.t + rule_.nodes[j] * grid_.edge;
     }
+  }
+  function_.values(work.s.data(), work.t.data(), all, work.values.data());
+  double sum = 0;
+  for (std::size_t j = 0; j < nodes; ++j) {
+    double row = 0;
+    for (std::size_t i = 0; i < nodes; ++i) row += rule_.weights[i] * work.values[j * nodes + i];
     sum += rule_.weights[j] * row;
   }
   return sum;
@@ -139,24 +181,32 @@ FREQSYNTH_ROUNDING FREQSYNTH_INLINE void BoxCovariance::with_point(UnitPoint poi
     return {grid_.origin + static_cast<double>(x) * grid_.edge - point.s,
             grid_.origin + static_cast<double>(y) * grid_.edge - point.t};
   };
+  Work work;
   if (!by_edges_) {
     for (std::size_t y = 0; y < side; ++y) {
-      for (std::size_t x = 0; x < side; ++x) out[y * side + x] = with_box_at(place(x, y));
+      for (std::size_t x = 0; x < side; ++x) out[y * side + x] = with_box_at(place(x, y), work);
     }
     return;
   }
   // An edge is one of two boxes.
   std::fill(out.begin(), out.end(), 0.0);
   for (std::size_t y = 0; y <= side; ++y) {
+    work.clear();
     for (std::size_t x = 0; x <= side; ++x) {
       const UnitPoint corner = function_.scaled(place(x, y));
+      if (x < side) add_line(corner, function_.scaled(place(x + 1, y)), work);
+      if (y < side) add_line(corner, function_.scaled(place(x, y + 1)), work);
+    }
+    find_fluxes(work);
+    const double* flux = work.fluxes.data();
+    for (std::size_t x = 0; x <= side; ++x) {
       if (x < side) {
-        const double down = flux(corner, function_.scaled(place(x + 1, y)));
+        const double down = *flux++;
         if (y < side) out[y * side + x] += down;
         if (y > 0) out[(y - 1) * side + x] -= down;
       }
       if (y < side) {
-        const double right = flux(corner, function_.scaled(place(x, y + 1)));
+        const double right = *flux++;
         if (x < side) out[y * side + x] -= right;
         if (x > 0) out[y * side + x - 1] += right;
       }
@@ -167,12 +217,14 @@ FREQSYNTH_ROUNDING FREQSYNTH_INLINE void BoxCovariance::with_point(UnitPoint poi
 
 FREQSYNTH_ROUNDING FREQSYNTH_INLINE double BoxCovariance::with_box(UnitPoint d) const {
   FREQSYNTH_ROUNDING_BEGIN
+  Work work;
   double sum = 0;
   for (std::size_t j = 0; j < outer_.nodes.size(); ++j) {
     double row = 0;
     for (std::size_t i = 0; i < outer_.nodes.size(); ++i) {
-      row += outer_.weights[i] *
-             with_box_at({d.s - outer_.nodes[i] * grid_.edge, d.t - outer_.nodes[j] * grid_.edge});
+      const UnitPoint corner{d.s - outer_.nodes[i] * grid_.edge,
+                             d.t - outer_.nodes[j] * grid_.edge};
+      row += outer_.weights[i] * with_box_at(corner, work);
     }
     sum += outer_.weights[j] * row;
   }

@@ -12,6 +12,7 @@
 /// covariance serves nodes of all sizes.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "freqsynth/basis/config.h"
@@ -82,6 +83,8 @@ class FREQSYNTH_API CovarianceFunction {
   /// Covariance, without noise, of the values at two points that are `d` apart: at most 1, which it
   /// is for the same point.
   [[nodiscard]] double operator()(UnitPoint d) const;
+  /// The same, to the bit, for `count` differences of points (s, t), many times faster.
+  void values(const double* s, const double* t, std::size_t count, double* out) const;
   /// A difference of points in coordinates along and across, scaled such that exp(-q) is in the
   /// shape, or exp(-q^2 / 2), with q the length of the result.
   [[nodiscard]] UnitPoint scaled(UnitPoint d) const;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstddef>
@@ -10,6 +11,7 @@
 
 #include "freqsynth/basis/check.h"
 #include "freqsynth/basis/covariance.h"
+#include "freqsynth/basis/kernels.h"
 #include "freqsynth/basis/rounding.h"
 
 namespace freqsynth::detail {
@@ -112,6 +114,44 @@ FREQSYNTH_ROUNDING FREQSYNTH_INLINE double CovarianceFunction::operator()(UnitPo
     value *= cos_turns(covariance_.frequency * (at.t / per_across_));
   }
   return value;
+}
+
+FREQSYNTH_ROUNDING FREQSYNTH_INLINE void CovarianceFunction::values(const double* s,
+                                                                    const double* t,
+                                                                    std::size_t count,
+                                                                    double* out) const {
+  FREQSYNTH_ROUNDING_BEGIN
+  constexpr std::size_t most = 256;
+  double squares[most], distances[most], turns[most];
+  for (std::size_t first = 0; first < count; first += most) {
+    const std::size_t some = std::min(most, count - first);
+    double* const values = out + first;
+    for (std::size_t i = 0; i < some; ++i) {
+      const UnitPoint at = scaled({s[first + i], t[first + i]});
+      squares[i] = at.s * at.s + at.t * at.t;
+      turns[i] = at.t;
+    }
+    if (covariance_.shape == CovarianceShape::squared_exponential) {
+      for (std::size_t i = 0; i < some; ++i) distances[i] = 0.5 * squares[i];
+    } else {
+      for (std::size_t i = 0; i < some; ++i) distances[i] = std::sqrt(squares[i]);
+    }
+    exponentials(distances, some, values);
+    if (covariance_.shape == CovarianceShape::matern32) {
+      for (std::size_t i = 0; i < some; ++i) values[i] *= 1 + distances[i];
+    }
+    if (covariance_.shape == CovarianceShape::matern52) {
+      for (std::size_t i = 0; i < some; ++i) {
+        values[i] *= 1 + distances[i] + squares[i] * (1.0 / 3);
+      }
+    }
+    if (covariance_.frequency == 0) continue;
+    for (std::size_t i = 0; i < some; ++i) {
+      turns[i] = covariance_.frequency * (turns[i] / per_across_);
+    }
+    cosines(turns, some, turns);
+    for (std::size_t i = 0; i < some; ++i) values[i] *= turns[i];
+  }
 }
 
 }  // namespace freqsynth::detail

@@ -63,16 +63,22 @@ FREQSYNTH_ROUNDING inline void InnovationList::Factorization::set_covariances(
   const detail::CovarianceFunction& function = boxes.function();
   const double noise = function.covariance().noise;
   const double own = 1 + noise;
-  std::vector<double> with_first(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    with_first[i] = function({points[i].s - points[0].s, points[i].t - points[0].t});
-    boxes.with_point(points[i], {gain(i), averages});
-  }
+  std::vector<double> s(n), t(n), with_first(n);
+  // From point j to those from it on.
+  const auto set_values = [&](std::size_t j, double* values) {
+    for (std::size_t i = j; i < n; ++i) {
+      s[i] = points[i].s - points[j].s;
+      t[i] = points[i].t - points[j].t;
+    }
+    function.values(&s[j], &t[j], n - j, values);
+  };
+  set_values(0, with_first.data());
+  for (std::size_t i = 0; i < n; ++i) boxes.with_point(points[i], {gain(i), averages});
   for (std::size_t j = 1; j < n; ++j) {
     double* values = column(j);
+    set_values(j, values);
     for (std::size_t i = j; i < n; ++i) {
-      const double value = function({points[i].s - points[j].s, points[i].t - points[j].t});
-      values[i - j] = (value - with_first[i]) + (own - with_first[j]);
+      values[i - j] = (values[i - j] - with_first[i]) + (own - with_first[j]);
     }
     values[0] += noise;
   }

@@ -174,6 +174,18 @@ using InnovateLanes = void(const float* factor, std::size_t count, float inverse
 /// sums(p) += weights(p) * value, for `count` sums of each lane.
 using AddLanes = void(const float* weights, std::size_t count, const float* values, float* sums);
 
+/// exp(-x) of each of `count` numbers from 0 on, exp_minus() to the bit; `out` may be `x`.
+using Exponentials = void(const double* x, std::size_t count, double* out);
+/// cos_turns() of each of `count` numbers below 2^30, to the bit; `out` may be `turns`.
+using Cosines = void(const double* turns, std::size_t count, double* out);
+/// Terms of the series below.
+inline constexpr std::size_t flux_series = 16;
+/// The integral of a covariance over the disc of radius q (box_covariance.h), by 2 pi q^2, for
+/// `count` distances q. Below 0.7 it is sum series(k) q^k.
+/// \param rough  whether the covariance is exp(-q), and not (1 + q) exp(-q)
+using FluxDensities = void(const double* distances, std::size_t count, const double* series,
+                           bool rough, double* out);
+
 /// One version of all kernels.
 struct Kernels {
   const char* name;  ///< "plain", "avx2" or "avx512"
@@ -197,6 +209,9 @@ struct Kernels {
   HoldFlat* hold_flat;
   InnovateLanes* innovate_lanes;
   AddLanes* add_lanes;
+  Exponentials* exponentials;
+  Cosines* cosines;
+  FluxDensities* flux_densities;
 };
 
 /// The versions that this processor can run, from the plain one, which all can, to the best.
@@ -225,6 +240,9 @@ FREQSYNTH_API ClampAround clamp_around;
 FREQSYNTH_API HoldFlat hold_flat;
 FREQSYNTH_API InnovateLanes innovate_lanes;
 FREQSYNTH_API AddLanes add_lanes;
+FREQSYNTH_API Exponentials exponentials;
+FREQSYNTH_API Cosines cosines;
+FREQSYNTH_API FluxDensities flux_densities;
 
 }  // namespace freqsynth::detail
 

@@ -45,6 +45,7 @@
 #define FREQSYNTH_KERNEL_SET avx512
 #define FREQSYNTH_KERNEL_BYTES 64
 #define FREQSYNTH_KERNEL_TARGET __attribute__((target("avx512f,avx512dq,avx512vl")))
+#include "freqsynth/basis/kernels_functions.inl"
 #include "freqsynth/basis/kernels_pack.inl"
 #include "freqsynth/basis/kernels_picture.inl"
 #include "freqsynth/basis/kernels_ranges.inl"
@@ -82,6 +83,9 @@ inline constexpr Kernels plain_kernels = {
     &plain::hold_flat,
     &plain::innovate_lanes,
     &plain::add_lanes,
+    &plain::exponentials,
+    &plain::cosines,
+    &plain::flux_densities,
 };
 #if defined(FREQSYNTH_KERNELS_AVX2)
 inline constexpr Kernels avx2_kernels = {
@@ -106,6 +110,9 @@ inline constexpr Kernels avx2_kernels = {
     &avx2::hold_flat,
     &avx2::innovate_lanes,
     &avx2::add_lanes,
+    &avx2::exponentials,
+    &avx2::cosines,
+    &avx2::flux_densities,
 };
 #endif
 #if defined(FREQSYNTH_KERNELS_AVX512)
@@ -130,6 +137,9 @@ inline constexpr Kernels avx512_kernels = [] {
   kernels.hold_flat = &avx512::hold_flat;
   kernels.innovate_lanes = &avx512::innovate_lanes;
   kernels.add_lanes = &avx512::add_lanes;
+  kernels.exponentials = &avx512::exponentials;
+  kernels.cosines = &avx512::cosines;
+  kernels.flux_densities = &avx512::flux_densities;
   return kernels;
 }();
 #endif
@@ -191,6 +201,9 @@ inline constexpr Kernels undecided_kernels = {
     &Undecided<&Kernels::hold_flat>::call,
     &Undecided<&Kernels::innovate_lanes>::call,
     &Undecided<&Kernels::add_lanes>::call,
+    &Undecided<&Kernels::exponentials>::call,
+    &Undecided<&Kernels::cosines>::call,
+    &Undecided<&Kernels::flux_densities>::call,
 };
 
 inline constinit std::atomic<const Kernels*> chosen{&undecided_kernels};

@@ -6,6 +6,7 @@
 // Nothing here calls a function that is not forced inline: it would be compiled for another
 // instruction set. All versions add in the same order, whatever the size of their registers.
 
+#include "freqsynth/basis/kernels_functions.inl"
 #include "freqsynth/basis/kernels_pack.inl"
 #include "freqsynth/basis/kernels_picture.inl"
 #include "freqsynth/basis/kernels_ranges.inl"

@@ -107,4 +107,17 @@ FREQSYNTH_INLINE void add_lanes(const float* weights, std::size_t count, const f
   kernels().add_lanes(weights, count, values, sums);
 }
 
+FREQSYNTH_INLINE void exponentials(const double* x, std::size_t count, double* out) {
+  kernels().exponentials(x, count, out);
+}
+
+FREQSYNTH_INLINE void cosines(const double* turns, std::size_t count, double* out) {
+  kernels().cosines(turns, count, out);
+}
+
+FREQSYNTH_INLINE void flux_densities(const double* distances, std::size_t count,
+                                     const double* series, bool rough, double* out) {
+  kernels().flux_densities(distances, count, series, rough, out);
+}
+
 }  // namespace freqsynth::detail
