@@ -27,6 +27,7 @@ set(FREQSYNTH_LAYERS
   "basis/inverse_list.h|the shared list: position, J^-1, gain for every index|4.3"
   "basis/shared_list.h|a reference to a list that several images share|4.3"
   "basis/innovation_list.h|the shared list of a prior: innovations, gains of pixel averages, evidence|"
+  "basis/innovation_store.h|one such list for all engines of the process that need the same|"
   "basis/node_positions.h|where the samples of blocks and of their quadrants lie|"
   "sample_traits.h|what a sampler may return|"
   "sampler.h|what a radiance function looks like, and requests|"

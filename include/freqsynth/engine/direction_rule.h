@@ -61,8 +61,8 @@ class DirectionRule final : public SplitRule {
 
   double most_gain_;
   std::vector<Covariance> priors_;
-  const NodePositions* positions_ = nullptr;            // that the lists are for
-  std::vector<std::unique_ptr<InnovationList>> lists_;  // of each class and prior
+  const NodePositions* positions_ = nullptr;                  // that the lists are for
+  std::vector<std::shared_ptr<const InnovationList>> lists_;  // of each class and prior
   detail::AlignedVector<float> innovations_;
 };
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "freqsynth/basis/innovation_store.h"
 #include "freqsynth/engine/direction_rule.h"
 #include "freqsynth/refine/kriging_refiner.h"
 
@@ -97,14 +98,14 @@ inline const InnovationList& DirectionRule::list(const NodePositions& positions,
     lists_.resize(positions.classes() * priors_.size());
     positions_ = &positions;
   }
-  std::unique_ptr<InnovationList>& list = lists_[of * priors_.size() + prior];
+  std::shared_ptr<const InnovationList>& list = lists_[of * priors_.size() + prior];
   if (list == nullptr) {
     std::vector<UnitPoint> points(81);
     for (std::size_t i = 0; i < points.size(); ++i) {
       points[i] = {positions.s(of, i), positions.t(of, i)};
     }
     // Of averages nothing is asked.
-    list = std::make_unique<InnovationList>(priors_[prior], points, AverageGrid::of_node(1));
+    list = shared_innovations(priors_[prior], points, AverageGrid::of_node(1));
   }
   return *list;
 }

@@ -33,8 +33,8 @@ namespace freqsynth {
   return (difference - predicted_by(row, innovations)) * row.inverse_pivot;
 }
 
-/// Estimates the scale of nodes; the nodes themselves belong to the caller. Copies share their
-/// lists.
+/// Estimates the scale of nodes; the nodes themselves belong to the caller. Lists are
+/// shared with all others of the process that need the same (shared_innovations()).
 class FREQSYNTH_API KrigingRefiner {
  public:
   /// Length of the covariance, in edges of the node.

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <utility>
 
+#include "freqsynth/basis/innovation_store.h"
 #include "freqsynth/basis/rounding.h"
 #include "freqsynth/refine/kriging_refiner.h"
 
@@ -18,8 +19,7 @@ FREQSYNTH_INLINE KrigingRefiner::KrigingRefiner(const NodePositions& positions,
     for (std::size_t i = 0; i < points.size(); ++i) {
       points[i] = {positions.s(of, i), positions.t(of, i)};
     }
-    lists_.push_back(std::make_shared<InnovationList>(rough, points,
-                                                      AverageGrid::of_node(positions.pixels(of))));
+    lists_.push_back(shared_innovations(rough, points, AverageGrid::of_node(positions.pixels(of))));
   }
 }
 

@@ -64,7 +64,8 @@ class FREQSYNTH_API PriorBank {
 };
 
 /// An innovation list for each member of a bank, of the same positions and averages. Lists grow
-/// when they are used, from any thread; those of waves are made then.
+/// when they are used, from any thread; those of waves are made then. Each is shared with all
+/// others in the process that hold the same (shared_innovations()).
 class FREQSYNTH_API BankLists {
  public:
   /// Most samples of a node that waves are tried on: a lattice of 289, and those around it.
@@ -101,19 +102,20 @@ class FREQSYNTH_API BankLists {
   [[nodiscard]] const AverageGrid& grid() const { return first().grid(); }
   /// Most samples of a node.
   [[nodiscard]] std::size_t max_samples() const { return first().positions().size(); }
-  /// Bytes that the rows built so far take.
+  /// Bytes that the rows built so far take, those that others hold as well included.
   [[nodiscard]] std::size_t memory() const;
 
  private:
-  using Slot = std::atomic<const InnovationList*>;
+  using Held = std::shared_ptr<const InnovationList>;
+  using Slot = std::atomic<const Held*>;
 
   [[nodiscard]] const InnovationList& first() const {
-    return *lists_[0].load(std::memory_order_relaxed);
+    return **lists_[0].load(std::memory_order_relaxed);
   }
   const InnovationList& made(Slot& slot, std::size_t member, std::size_t most,
                              const AverageGrid& grid) const {
-    const InnovationList* list = slot.load(std::memory_order_acquire);
-    return list != nullptr ? *list : make(slot, member, most, grid);
+    const Held* list = slot.load(std::memory_order_acquire);
+    return list != nullptr ? **list : make(slot, member, most, grid);
   }
   const InnovationList& make(Slot& slot, std::size_t member, std::size_t most,
                              const AverageGrid& grid) const;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "freqsynth/basis/check.h"
+#include "freqsynth/basis/innovation_store.h"
 #include "freqsynth/basis/rounding.h"
 #include "freqsynth/refine/prior_bank.h"
 
@@ -102,10 +103,11 @@ FREQSYNTH_INLINE BankLists::BankLists(const PriorBank& bank, std::span<const Uni
     : bank_(bank), size_(bank.members().size()) {
   detail::require(size_ > 0, "bank.members().size()", 0, "at least 1");
   // Who owns them until all are there.
-  std::vector<std::unique_ptr<const InnovationList>> lists(size_);
+  std::vector<std::unique_ptr<const Held>> lists(size_);
   for (const PriorGroup& group : bank_.groups()) {
     for (std::size_t k = group.first; !group.waves && k < group.first + group.count; ++k) {
-      lists[k] = std::make_unique<const InnovationList>(bank_.members()[k], positions, grid);
+      lists[k] =
+          std::make_unique<const Held>(shared_innovations(bank_.members()[k], positions, grid));
     }
   }
   lists_ = std::make_unique<Slot[]>(size_);
@@ -124,19 +126,19 @@ FREQSYNTH_INLINE const InnovationList& BankLists::make(Slot& slot, std::size_t m
                                                        std::size_t most,
                                                        const AverageGrid& grid) const {
   const std::span<const UnitPoint> all = first().positions();
-  auto list = std::make_unique<const InnovationList>(bank_.members()[member],
-                                                     all.first(std::min(most, all.size())), grid);
+  auto list = std::make_unique<const Held>(
+      shared_innovations(bank_.members()[member], all.first(std::min(most, all.size())), grid));
   // Another thread may have been faster.
-  const InnovationList* there = nullptr;
-  return slot.compare_exchange_strong(there, list.get()) ? *list.release() : *there;
+  const Held* there = nullptr;
+  return slot.compare_exchange_strong(there, list.get()) ? **list.release() : **there;
 }
 
 FREQSYNTH_INLINE std::size_t BankLists::memory() const {
   std::size_t bytes = 0;
   for (std::size_t k = 0; k < size_; ++k) {
     for (const Slot* slot : {&lists_[k], &probes_[k]}) {
-      const InnovationList* list = slot->load(std::memory_order_acquire);
-      bytes += list != nullptr ? list->memory() : 0;
+      const Held* list = slot->load(std::memory_order_acquire);
+      bytes += list != nullptr ? (*list)->memory() : 0;
     }
   }
   return bytes;
