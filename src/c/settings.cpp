@@ -23,6 +23,8 @@ static_assert(FREQSYNTH_STEER_RELATIVE == static_cast<int>(Steer::relative));
 static_assert(FREQSYNTH_STEER_DISPLAY == static_cast<int>(Steer::display));
 static_assert(FREQSYNTH_POSITIONS_BENT == static_cast<int>(SamplePositions::bent));
 static_assert(FREQSYNTH_POSITIONS_LATTICE == static_cast<int>(SamplePositions::lattice));
+static_assert(FREQSYNTH_REFINER_LEAST_SQUARES == static_cast<int>(RefinerKind::least_squares));
+static_assert(FREQSYNTH_REFINER_KRIGING == static_cast<int>(RefinerKind::kriging));
 static_assert(FREQSYNTH_FILTER_NONE == static_cast<int>(PixelFilter::none));
 static_assert(FREQSYNTH_FILTER_BOX == static_cast<int>(PixelFilter::box));
 static_assert(FREQSYNTH_FILTER_TENT == static_cast<int>(PixelFilter::tent));
@@ -84,6 +86,8 @@ SynthesisSettings settings_of(const freqsynth_settings* from) {
     settings.quantization = quantization_of(c, c.channels - apart);
   }
   if (c.shared_list != nullptr) settings.shared_list = c.shared_list->list;
+  settings.refiner = enumerator(c.refiner, RefinerKind::kriging, "refiner");
+  settings.packet = c.packet;
   return settings;
 }
 
@@ -153,6 +157,8 @@ void freqsynth_settings_init(freqsynth_settings* settings, size_t size) {
   c.max_samples_per_block = usual.max_samples_per_block;
   c.quantization_tolerance = target.tolerance;
   c.quantization_most_samples = target.most_samples;
+  c.refiner = static_cast<int32_t>(usual.refiner);
+  c.packet = static_cast<uint32_t>(usual.packet);
   freqsynth::detail::write_defaults(c, settings, size);
 }
 

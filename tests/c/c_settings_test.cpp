@@ -77,6 +77,8 @@ TEST(CSettings, EverySettingArrives) {
       {"image", [](auto& s) { s.priority_image = 50; }, [](auto& s) { s.priority.image = 50; }},
       {"exploration", [](auto& s) { s.priority_exploration = 0.2; },
        [](auto& s) { s.priority.exploration = 0.2; }},
+      {"refiner", [](auto& s) { s.refiner = FREQSYNTH_REFINER_KRIGING; },
+       [](auto& s) { s.refiner = RefinerKind::kriging; }},
       One::of_both("wave", [](auto& s) { s.wave = 20; }),
       One::of_both("max_samples_per_block", [](auto& s) { s.max_samples_per_block = 90; }),
       {"importance",
@@ -101,6 +103,22 @@ TEST(CSettings, EverySettingArrives) {
       all, c_settings(1), cxx_settings(1),
       [](const auto& settings) { return render_in_c(settings, c_rule(6000)); },
       [](const auto& settings) { return render_in_cxx(settings, {.samples = 6000}); });
+}
+
+TEST(CSettings, RequestsComeInPackets) {
+  for (const std::uint32_t packet : {1u, 16u}) {
+    freqsynth_settings settings = c_settings(1);
+    settings.wave = 48;
+    settings.packet = packet;
+    freqsynth_synthesizer* made = nullptr;
+    ASSERT_EQ(freqsynth_synthesizer_create(&settings, &made), FREQSYNTH_OK);
+    const Engine engine(made);
+    std::array<freqsynth_request, 40> requests;
+    std::size_t count = 0;
+    ASSERT_EQ(freqsynth_request_samples(engine.handle, requests.data(), 40, 0, &count),
+              FREQSYNTH_OK);
+    EXPECT_EQ(count, packet == 16 ? 32u : 40u);
+  }
 }
 
 TEST(CSettings, SeedAndWindowArrive) {

@@ -128,6 +128,12 @@ static int settings_are_refused(void) {
   settings.priority_steer = 3;
   REFUSED(freqsynth_synthesizer_create(&settings, &engine), "priority_steer is 3");
   settings.priority_steer = 0;
+  settings.refiner = 2;
+  REFUSED(freqsynth_synthesizer_create(&settings, &engine), "refiner is 2, not in 0..1");
+  settings.refiner = FREQSYNTH_REFINER_LEAST_SQUARES;
+  settings.packet = 0;
+  REFUSED(freqsynth_synthesizer_create(&settings, &engine), "packet is 0, not in 1..1048576");
+  settings.packet = 1;
   settings.channel_settings = channels;
   REFUSED(freqsynth_synthesizer_create(&settings, &engine), "role is 9, not in 0..5");
   settings.channel_settings = NULL;

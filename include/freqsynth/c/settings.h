@@ -50,6 +50,12 @@ enum {
   FREQSYNTH_POSITIONS_LATTICE = 1 /**< the plain lattice of the paper */
 };
 
+/** How samples become an image, see RefinerKind. */
+enum {
+  FREQSYNTH_REFINER_LEAST_SQUARES = 0, /**< a least-squares fit, block by block */
+  FREQSYNTH_REFINER_KRIGING = 1        /**< a tree of nodes and a bank of priors */
+};
+
 /** A channel, see ChannelSettings. */
 typedef struct freqsynth_channel {
   int32_t role; /**< FREQSYNTH_ROLE_... */
@@ -95,6 +101,8 @@ typedef struct freqsynth_settings {
   double quantization_tolerance;     /**< 0.25 */
   size_t quantization_most_samples;  /**< per block of 8 x 8 pixels; 4096 */
   const freqsynth_list* shared_list; /**< NULL: one of its own */
+  int32_t refiner;                   /**< FREQSYNTH_REFINER_... */
+  uint32_t packet;                   /**< requests that are traced together; 1 */
 } freqsynth_settings;
 
 /** The defaults. \param size  sizeof(freqsynth_settings) */
