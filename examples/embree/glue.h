@@ -38,8 +38,8 @@ inline freqsynth::SynthesisSettings settings_of(std::size_t width, std::size_t h
   freqsynth::SynthesisSettings settings{.width = width, .height = height, .channels = channels};
   settings.noise = freqsynth::Noise::present;
   settings.channel_settings.assign(3, {steer});
-  settings.channel_settings.resize(9, {feature});
-  settings.channel_settings.push_back({passive});  // how much of the sun is seen
+  settings.channel_settings.resize(9, {mean_feature});
+  settings.channel_settings.push_back({mean});     // how much of the sun is seen
   settings.channel_settings.push_back({nearest});  // depth
   return settings;
 }

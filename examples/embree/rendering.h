@@ -49,15 +49,17 @@ template <class Pool>
 [[nodiscard]] Pixels pixels_of(const freqsynth::Synthesizer& engine, Pool& pool) {
   const freqsynth::PixelWindow shown = engine.window();
   Pixels pixels(shown.width * shown.height * channels);
-  // All but depth come finished, to where they belong.
+  // Light comes finished, to where it belongs.
   engine.finish({.data = pixels.data(),
                  .width = shown.width,
                  .height = shown.height,
                  .pixel_stride = channels,
                  .row_stride = static_cast<std::ptrdiff_t>(shown.width * channels)},
                 {}, pool);
-  const std::vector<float> depths = engine.channel_pixels(depth);
-  for (std::size_t p = 0; p < depths.size(); ++p) pixels[p * channels + depth] = depths[p];
+  for (std::size_t channel = 3; channel < channels; ++channel) {
+    const std::vector<float> own = engine.channel_pixels(channel);
+    for (std::size_t p = 0; p < own.size(); ++p) pixels[p * channels + channel] = own[p];
+  }
   return pixels;
 }
 
