@@ -49,7 +49,7 @@ void smooth(benchmark::State& state) {
   noisy.weights.resize(pixels);
   noisy.sums.assign(10, noisy.weights);
   noisy.pixels.assign(10, noisy.weights);
-  noisy.variances.assign(10, std::vector<float>(pixels / max_terms, 0.01f));
+  noisy.variances.assign(10, NoisyPicture::Plane(pixels / max_terms, 0.01f));
   std::mt19937 random(1);
   std::uniform_real_distribution<float> uniform(0, 1);
   for (std::size_t i = 0; i < pixels; ++i) {

@@ -12,6 +12,7 @@ namespace {
 
 using detail::large_page;
 using detail::LargeVector;
+using detail::UnsetVector;
 
 std::size_t place_of(const void* memory) { return reinterpret_cast<std::uintptr_t>(memory); }
 
@@ -29,6 +30,23 @@ TEST(LargeVector, StartsOnACacheLineAndWhenLargeOnAPage) {
     const LargeVector<float> copy = numbers;
     EXPECT_EQ(copy, numbers);
   }
+}
+
+TEST(LargeVector, StartsWithZeros) {
+  for (const std::size_t count : {1000u, 2000000u}) {
+    LargeVector<float> numbers(count, 3.0f);
+    numbers.clear();
+    numbers.resize(count);
+    EXPECT_EQ(numbers, LargeVector<float>(count, 0.0f));
+    EXPECT_EQ(numbers, LargeVector<float>(count));
+  }
+}
+
+TEST(UnsetVector, LeavesNewNumbersAsTheyAre) {
+  UnsetVector<float> numbers(1000, 3.0f);
+  numbers.resize(10);
+  numbers.resize(1000);
+  EXPECT_EQ(numbers, UnsetVector<float>(1000, 3.0f));
 }
 
 TEST(LargePages, AskingForThemChangesNothing) {

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <numeric>
 #include <random>
+#include <span>
 #include <stdexcept>
 #include <vector>
 
@@ -38,7 +39,9 @@ NoisyPicture noisy_picture(std::size_t width, std::size_t height, const Plane& r
   return picture;
 }
 
-double sum_of(const Plane& plane) { return std::accumulate(plane.begin(), plane.end(), 0.0); }
+double sum_of(std::span<const float> plane) {
+  return std::accumulate(plane.begin(), plane.end(), 0.0);
+}
 
 double rms(const Plane& a, const Plane& b) {
   double sum = 0;

@@ -187,7 +187,7 @@ class BlockStore {
   R refiner_;
   std::size_t most_samples_;
   std::size_t stride_;  // whole cache lines
-  detail::LargeVector<float> states_;
+  detail::UnsetVector<float> states_;
   mutable detail::StateKeeper* keeper_ = nullptr;
   std::vector<std::uint32_t> counts_;
   std::vector<std::uint32_t> missing_;  // of these, without a usable value where it counts

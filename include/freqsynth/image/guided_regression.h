@@ -18,6 +18,7 @@
 
 #include "freqsynth/basis/aligned.h"
 #include "freqsynth/basis/config.h"
+#include "freqsynth/basis/large_pages.h"
 #include "freqsynth/engine/executor.h"
 #include "freqsynth/image/linear_blend.h"
 #include "freqsynth/image/noisy_picture.h"
@@ -94,7 +95,7 @@ class FREQSYNTH_API GuidedRegression {
   std::vector<LinearBlend<float>> columns_, lines_;  // of pixels
   // [cell][target]: value at the cell's centre where guides are 0, and the slopes; not a number
   // without samples.
-  std::vector<float> fits_;
+  LargeVector<float> fits_;
 };
 
 }  // namespace detail

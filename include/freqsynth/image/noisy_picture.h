@@ -7,14 +7,14 @@
 #include <cstddef>
 #include <vector>
 
-#include "freqsynth/basis/config.h"
+#include "freqsynth/basis/large_pages.h"
 
 namespace freqsynth {
 
 /// Whole blocks of pixels, which are smoothed in any unit.
 struct NoisyPicture {
   /// Values of pixels, row by row.
-  using Plane = std::vector<float>;
+  using Plane = detail::LargeVector<float>;
 
   std::size_t width = 0;      ///< pixels, a multiple of block_size
   std::size_t height = 0;     ///< pixels, a multiple of block_size
