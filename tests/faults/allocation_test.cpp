@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "faults/failing_new.h"
+#include "faults/survive.h"
 #include "freqsynth/basis/inverse_list.h"
 #include "freqsynth/engine/thread_pool.h"
 #include "freqsynth/freqsynth.h"
@@ -19,27 +20,11 @@
 namespace freqsynth {
 namespace {
 
-using faults::FailAllocation;
+using faults::loop;
+using faults::survive;
 using helpers::at_samples;
 using helpers::picture;
 using helpers::settings_of;
-
-/// Calls work(), in which allocation `k` fails, again and again until it goes through.
-/// \return whether the fault came to pass
-template <class Work>
-bool survive(std::size_t k, Work&& work) {
-  const FailAllocation fault(k);
-  for (int attempt = 0; attempt < 2; ++attempt) {
-    try {
-      work();
-      return fault.failed();
-    } catch (const std::bad_alloc&) {
-      EXPECT_TRUE(fault.failed());
-    }
-  }
-  ADD_FAILURE() << "allocation " << k << " failed once, the work twice";
-  return true;
-}
 
 template <class Span>
 bool same(const Span& a, const Span& b) {
@@ -123,25 +108,6 @@ TEST(Allocation, WhateverHappensToARequestNeedsNoMemory) {
   EXPECT_EQ(helpers::calls_of(engine), calls);
   engine.set_stop(at_samples(700));
   EXPECT_FALSE(engine.stopped());
-}
-
-/// A loop of the host's own, in portions of 7, which gives every fifth request back once.
-void loop(Synthesizer& engine, std::uint64_t& answered, std::vector<Request>& requests,
-          std::vector<float>& values) {
-  for (;;) {
-    requests.resize(7);
-    const std::size_t count = engine.request(requests);
-    if (count == 0) return;
-    for (std::size_t i = 0; i < count; ++i) {
-      if ((requests[i].id + answered) % 5 == 0 && count > 1 && i == 0) {
-        engine.give_back(std::span(requests).subspan(i, 1));
-        continue;
-      }
-      values[0] = picture(requests[i].x, requests[i].y);
-      engine.deliver(std::span(requests).subspan(i, 1), std::span(values).first(1));
-      ++answered;
-    }
-  }
 }
 
 TEST(Allocation, AnEngineInALoopOfTheHostsOwnGoesOn) {

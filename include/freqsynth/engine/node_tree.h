@@ -154,17 +154,23 @@ class NodeTree {
 
   /// What the next sample of a leaf is expected to be; 0 without any.
   [[nodiscard]] float prediction(std::uint32_t leaf, std::size_t channel) const;
+  /// Makes room for the next sample of a leaf that is not complete, so that absorb() cannot fail.
+  /// \throws std::bad_alloc, and what is known is as it was.
+  void reserve_next(std::uint32_t leaf);
   /// Takes in the next sample of a leaf that is not complete, one usable value per channel.
+  /// \throws std::bad_alloc, and it is as it was.
   void absorb(std::uint32_t leaf, const float* values);
   /// Takes in all of a leaf's next samples that are known. \return how many
+  /// \throws std::bad_alloc between two of them; called again it goes on.
   std::size_t advance(std::uint32_t leaf);
   /// Lets a leaf that has had its samples go on as one. `limit` is more than it has.
   void raise_limit(std::uint32_t leaf, std::size_t limit) {
     nodes_[leaf].limit = static_cast<std::uint16_t>(limit);
   }
-  /// Splits a leaf that has had 81, 289 or 1089 samples into four, gives them what is theirs of
-  /// these and lets them take it in. What the leaf was told is forgotten.
+  /// Splits a leaf that has had 81, 289 or 1089 samples into four and gives them what is theirs of
+  /// these, which advance() lets them take in. What the leaf was told is forgotten.
   /// \param limit  of the quadrants
+  /// \throws std::bad_alloc, and it is a leaf still.
   void split(std::uint32_t leaf, std::size_t limit);
 
  private:
@@ -178,6 +184,9 @@ class NodeTree {
   bool find_next(std::uint32_t leaf);
   std::uint32_t add_quadrants(std::uint32_t parent);
   void hand_down(std::uint32_t parent, std::size_t quadrant, std::size_t count);
+  void reserve_quadrants(std::size_t count, std::array<NodeStore::Chunk, 4>& chunks);
+  [[nodiscard]] bool is_handed_down(const TreeNode& parent, std::size_t quadrant,
+                                    std::size_t index) const;
   void keep_for_others(std::uint32_t parent, std::size_t index);
   void set_scale(std::uint32_t leaf);
   [[nodiscard]] static std::uint64_t key(const TreePlace& place) {

@@ -107,15 +107,21 @@ inline float NodeTree::prediction(std::uint32_t leaf, std::size_t channel) const
          refiner_.prediction(node.of, node.samples, innovations(leaf, channel).data());
 }
 
-inline void NodeTree::absorb(std::uint32_t leaf, const float* values) {
+inline void NodeTree::reserve_next(std::uint32_t leaf) {
   TreeNode& node = nodes_[leaf];
   FREQSYNTH_ASSERT(node.leaf() && !node.complete());
   const std::size_t index = node.samples;
+  static_cast<void>(refiner_.list(node.of).row(index));
   const bool fresh = !node.chunk;
   store_.enlarge(node.chunk, std::max<std::size_t>(index, node.held), index + 1);
+  if (fresh) std::fill_n(node.chunk.data + channels(), channels(), 1.0f);
+}
+
+inline void NodeTree::absorb(std::uint32_t leaf, const float* values) {
+  reserve_next(leaf);
+  TreeNode& node = nodes_[leaf];
+  const std::size_t index = node.samples;
   const InnovationRow& row = refiner_.list(node.of).row(index);
-  float* head = node.chunk.data;
-  if (fresh) std::fill(head + channels(), head + 2 * channels(), 1.0f);
   for (std::size_t c = 0; c < channels(); ++c) {
     float* known = store_.row(node.chunk, 2 * c);
     float* innovations = store_.row(node.chunk, 2 * c + 1);
@@ -124,7 +130,7 @@ inline void NodeTree::absorb(std::uint32_t leaf, const float* values) {
     // The first one tells of the constant alone.
     if (index == 0) continue;
     innovations[index] = innovation_of(row, innovations, value - known[0]);
-    head[c] += innovations[index] * innovations[index];
+    node.chunk.data[c] += innovations[index] * innovations[index];
   }
   ++node.samples;
   ++absorbed_;
@@ -185,13 +191,34 @@ inline std::size_t NodeTree::advance(std::uint32_t leaf) {
 inline void NodeTree::split(std::uint32_t leaf, std::size_t limit) {
   const std::size_t count = NodePositions::handed_down(nodes_[leaf].samples);
   FREQSYNTH_ASSERT(nodes_[leaf].leaf() && count != 0 && nodes_[leaf].depth < deepest);
+  // What is kept for others is known to them from the leaf as well, so long as it is one.
+  for (std::size_t k = 0; k < 4; ++k) {
+    for (std::size_t i = 0; i < corners; ++i) {
+      if (!is_handed_down(nodes_[leaf], k, i)) keep_for_others(leaf, positions_->in_parent(k, i));
+    }
+  }
+  std::array<NodeStore::Chunk, 4> chunks;
+  reserve_quadrants(count, chunks);
+  // From here on nothing fails.
   const std::uint32_t first = add_quadrants(leaf);
   for (std::uint32_t k = 0; k < 4; ++k) {
     nodes_[first + k].limit = static_cast<std::uint16_t>(std::max(limit, count));
+    nodes_[first + k].chunk = chunks[k];
     hand_down(leaf, k, count);
   }
   store_.give_back(nodes_[leaf].chunk);
-  for (std::uint32_t k = 0; k < 4; ++k) advance(first + k);
+}
+
+/// Takes the memory of four more nodes with so many samples each, all of it or none.
+inline void NodeTree::reserve_quadrants(std::size_t count,
+                                        std::array<NodeStore::Chunk, 4>& chunks) {
+  if (nodes_.capacity() < nodes_.size() + 4) nodes_.reserve(2 * nodes_.size() + 4);
+  try {
+    for (NodeStore::Chunk& chunk : chunks) chunk = store_.take(count);
+  } catch (...) {
+    for (NodeStore::Chunk& chunk : chunks) store_.give_back(chunk);
+    throw;
+  }
 }
 
 /// Makes a leaf a parent. Its quadrants, of which the first is returned, have nothing yet.
@@ -212,18 +239,20 @@ inline std::uint32_t NodeTree::add_quadrants(std::uint32_t number) {
   return first;
 }
 
+/// Whether sample `index` of a quadrant is one of its parent's. All but corners are.
+inline bool NodeTree::is_handed_down(const TreeNode& parent, std::size_t quadrant,
+                                     std::size_t index) const {
+  const bool same = positions_->same_place(parent.of, quadrant, index);
+  FREQSYNTH_ASSERT(same || index < corners);
+  return same;
+}
+
 /// Gives a quadrant what is its own of its parent's samples; nothing of it is taken in yet.
 inline void NodeTree::hand_down(std::uint32_t parent, std::size_t quadrant, std::size_t count) {
   const TreeNode& from = nodes_[parent];
-  TreeNode& to = nodes_[nodes_.size() - 4 + quadrant];
-  store_.enlarge(to.chunk, 0, count);
+  TreeNode& to = nodes_[from.quadrants + quadrant];
   for (std::size_t i = 0; i < count; ++i) {
-    const bool same = positions_->same_place(from.of, quadrant, i);
-    FREQSYNTH_ASSERT(same || i < corners);
-    if (!same) {
-      keep_for_others(parent, positions_->in_parent(quadrant, i));
-      continue;
-    }
+    if (!is_handed_down(from, quadrant, i)) continue;
     if (i < corners) to.held_corners = static_cast<std::uint8_t>(to.held_corners | (1u << i));
     for (std::size_t c = 0; c < channels(); ++c) {
       const float* values = store_.row(from.chunk, 2 * c);
@@ -239,9 +268,16 @@ inline void NodeTree::hand_down(std::uint32_t parent, std::size_t quadrant, std:
 inline void NodeTree::keep_for_others(std::uint32_t parent, std::size_t index) {
   const TreePlace lattice = home(parent, index), at = place(parent, index);
   if (lattice.x % NodePositions::edge != 0 && lattice.y % NodePositions::edge != 0) return;
-  if (!kept_.emplace(key(at), kept_values_.size()).second) return;
-  for (std::size_t c = 0; c < channels(); ++c) {
-    kept_values_.push_back(store_.row(nodes_[parent].chunk, 2 * c)[index]);
+  if (kept_.count(key(at)) > 0) return;
+  const std::size_t first = kept_values_.size();
+  try {
+    for (std::size_t c = 0; c < channels(); ++c) {
+      kept_values_.push_back(store_.row(nodes_[parent].chunk, 2 * c)[index]);
+    }
+    kept_.emplace(key(at), first);
+  } catch (...) {
+    kept_values_.resize(first);
+    throw;
   }
 }
 

@@ -30,9 +30,9 @@
 
 namespace freqsynth {
 
-/// All members may be called from any thread. When memory runs out while a wave is taken in,
-/// deliver() or abandon() throws std::bad_alloc, and all that looks at the tree does from then on:
-/// what was saved before is what there is.
+/// All members may be called from any thread. Where memory runs out while a wave is taken in, the
+/// rest is put off: whoever asks for requests or looks at the tree next goes on with it, and meets
+/// std::bad_alloc where there still is none.
 class TreeEngine : public HostDesk<TreeEngine> {
  public:
   /// \param settings  noisy where `noise` is Noise::present
@@ -90,9 +90,10 @@ class TreeEngine : public HostDesk<TreeEngine> {
  private:
   friend HostDesk<TreeEngine>;
 
+  /// The lock, once no wave is left halfway. \throws std::bad_alloc.
   [[nodiscard]] std::unique_lock<std::mutex> settled() const {
     std::unique_lock lock(mutex_);
-    if (failed_) throw std::bad_alloc();
+    if (halfway_) self_.take_in_wave();
     return lock;
   }
   // All of these run under the lock.
@@ -101,6 +102,7 @@ class TreeEngine : public HostDesk<TreeEngine> {
   [[nodiscard]] bool meets_target();
   [[nodiscard]] Request make_request(std::uint32_t slot) const;
   void end_of_delivery(std::unique_lock<std::mutex>& lock, const detail::ExecutorRef& executor);
+  void take_in_wave();
   [[nodiscard]] double share_of_blocks() const;
   void add_slots();
   template <class Archive, class Self>
@@ -112,7 +114,8 @@ class TreeEngine : public HostDesk<TreeEngine> {
   std::optional<std::vector<float>> factors_;  // that are to be used from the next wave on
   Predictor predict_ = nullptr;
   const void* context_ = nullptr;
-  bool failed_ = false;  // memory ran out halfway through a wave
+  bool halfway_ = false;  // a complete wave waits to be taken in
+  TreeEngine& self_;      // which whoever looks may have to go on with
 };
 
 }  // namespace freqsynth

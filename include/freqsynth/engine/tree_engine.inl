@@ -13,7 +13,8 @@ inline TreeEngine::TreeEngine(const TreeSettings& settings, std::vector<float> f
           BlockGrid::of(settings.width, settings.height, settings.weights.size() + apart.size()),
           settings.weights, apart, noise),
       sampler_(settings, &rule_),
-      frame_(detail::mix_bits(seed + detail::golden_step)) {
+      frame_(detail::mix_bits(seed + detail::golden_step)),
+      self_(*this) {
   sampler_.use_factors(std::move(factors));
 }
 
@@ -85,21 +86,26 @@ inline Request TreeEngine::make_request(std::uint32_t slot) const {
 }
 
 inline void TreeEngine::end_of_delivery(std::unique_lock<std::mutex>&, const detail::ExecutorRef&) {
-  if (failed_ || !wave_.complete()) return;
+  if (halfway_ || !wave_.complete()) return;
   static_cast<void>(take_in_repeated());
   for (std::size_t i = 0; i < wave_.samples(); ++i) {
     const Request& asked = sampler_.planned()[i];
     note(i, {asked.x, asked.y},
          [](std::size_t, float value) { return TreeSampler::usable(value); });
   }
-  failed_ = true;
+  halfway_ = true;
   try {
-    sampler_.take_in(wave_.values());
+    take_in_wave();
   } catch (const std::bad_alloc&) {
+    // Answers need no memory; what is left of this waits for settled().
     room_.wake();
-    throw;
   }
-  failed_ = false;
+}
+
+/// The rest of it, which may be all. \throws std::bad_alloc, and there is a rest still.
+inline void TreeEngine::take_in_wave() {
+  sampler_.take_in(wave_.values());
+  halfway_ = false;
   stats_.absorbed = sampler_.stats().absorbed;
   close_wave();
   room_.wake();

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -99,7 +100,8 @@ class TreeSampler {
   /// Takes the values of the wave, one per channel and position. A value that is not usable is
   /// replaced by what the node expects.
   /// \throws std::invalid_argument when there are more or fewer, and nothing is taken;
-  ///         std::bad_alloc; the sampler must not be used any more then.
+  ///         std::bad_alloc: then it must be called again, with the same values, and goes on where
+  ///         it was. Until then nothing but settings() may be asked.
   void take_in(std::span<const float> values);
 
   /// Takes samples until there are so many in all, or none is left to take.
@@ -120,8 +122,14 @@ class TreeSampler {
   void ask();
   void add_request(std::uint32_t leaf);
   void repair(std::uint32_t leaf);
+  void take_own(std::uint32_t leaf, const float* values);
+  void take_from_others();
+  void advance(std::uint32_t leaf, bool news);
+  void reserve_notes();
   void note(std::uint32_t leaf);
   void end_of(std::uint32_t leaf);
+  void begin_end_of(std::uint32_t leaf);
+  void reserve_split();
   void settle();
   void update(std::uint32_t leaf);
   [[nodiscard]] float priority(std::uint32_t leaf) const;
@@ -143,7 +151,17 @@ class TreeSampler {
     std::uint64_t name = 0;
     std::size_t number = 0;  // in `chosen_`
   };
-  std::vector<Border> borders_;         // positions on borders
+  std::vector<Border> borders_;  // positions on borders
+  /// How far take_in() has come: where it is to go on when memory has run out.
+  struct Taking {
+    std::size_t sample = 0;                  // of the wave
+    bool own = false;                        // its leaf has it
+    std::array<std::uint32_t, 4> others{};   // leaves that may have come to know their next one
+    std::size_t count = 0, other = 0;        // of these; which of them is next
+    std::size_t ripe = 0;                    // in `ripe_`
+    std::array<std::uint32_t, 4> growing{};  // leaves that have become able to take in more
+    std::size_t growing_count = 0, grown = 0;
+  };
   std::vector<std::uint32_t> chosen_;   // leaves, some of which ask for nothing of their own
   std::vector<std::uint32_t> touched_;  // leaves that have taken in something
   std::vector<std::uint32_t> ripe_;     // leaves that may have to be split
@@ -151,6 +169,7 @@ class TreeSampler {
   std::vector<float> factors_;  // on priorities, of each block; none: 1
   std::vector<float> told_;     // the scale of each node that others know of
   std::vector<float> values_;
+  Taking taking_;
   std::vector<double> sums_;  // of the usable values of each channel
   std::vector<std::uint64_t> usable_;
   TreeStats stats_;

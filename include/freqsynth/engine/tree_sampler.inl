@@ -9,6 +9,7 @@
 #include "freqsynth/basis/mix_bits.h"
 #include "freqsynth/engine/tree_sampler.h"
 #include "freqsynth/engine/tree_sampler_choice.inl"
+#include "freqsynth/engine/tree_sampler_taking.inl"
 
 namespace freqsynth {
 namespace detail {
@@ -96,38 +97,6 @@ inline float TreeSampler::priority(std::uint32_t leaf) const {
   return static_cast<float>(std::min(gain, 1e29));
 }
 
-inline void TreeSampler::take_in(std::span<const float> values) {
-  const std::size_t channels = tree_.channels();
-  if (values.size() != wave_.size() * channels) {
-    detail::refuse(std::to_string(values.size()) + " values for " + std::to_string(wave_.size()) +
-                   " requests of " + std::to_string(channels) + " channels");
-  }
-  for (std::size_t i = 0; i < wave_.size(); ++i) {
-    const std::uint32_t leaf = owners_[i];
-    const TreePlace home = tree_.home(leaf, tree_.node(leaf).samples);
-    std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(i * channels), channels,
-                values_.begin());
-    repair(leaf);
-    tree_.absorb(leaf, values_.data());
-    tree_.advance(leaf);
-    note(leaf);
-    tree_.visit_touching(home, [&](std::uint32_t other, const NodePosition&) {
-      if (other != leaf && tree_.advance(other) > 0) note(other);
-    });
-  }
-  stats_.samples += wave_.size();
-  ++stats_.waves;
-  wave_.clear();
-  owners_.clear();
-  // More may come as nodes are split.
-  for (std::size_t i = 0; i < ripe_.size(); ++i) end_of(ripe_[i]);
-  ripe_.clear();
-  if (!steering_.settled()) settle();
-  for (const std::uint32_t leaf : touched_) is_touched_[leaf] = false;
-  for (const std::uint32_t leaf : touched_) update(leaf);
-  touched_.clear();
-}
-
 /// Once every block has had a sample, their priorities become others.
 inline void TreeSampler::settle() {
   const auto blocks = static_cast<std::uint32_t>(tree_.grid().size());
@@ -143,50 +112,6 @@ inline void TreeSampler::settle() {
     if (number < blocks) scales_ += double{told_[number]};
   }
   for (std::uint32_t leaf = 0; leaf < tree_.size(); ++leaf) queue_.update(leaf, priority(leaf));
-}
-
-/// Puts what is expected in the place of values that are not usable.
-inline void TreeSampler::repair(std::uint32_t leaf) {
-  bool bad = false;
-  for (std::size_t c = 0; c < values_.size(); ++c) {
-    if (usable(values_[c])) {
-      sums_[c] += double{values_[c]};
-      ++usable_[c];
-      continue;
-    }
-    bad = true;
-    values_[c] = tree_.node(leaf).samples > 0 ? tree_.prediction(leaf, c)
-                 : usable_[c] > 0 ? static_cast<float>(sums_[c] / static_cast<double>(usable_[c]))
-                                  : 0.0f;
-  }
-  stats_.bad += bad ? 1 : 0;
-}
-
-/// A leaf has taken in samples.
-inline void TreeSampler::note(std::uint32_t leaf) {
-  if (tree_.node(leaf).complete()) ripe_.push_back(leaf);
-  if (is_touched_[leaf]) return;
-  is_touched_[leaf] = true;
-  touched_.push_back(leaf);
-}
-
-/// A leaf has had all samples that it was to have.
-inline void TreeSampler::end_of(std::uint32_t leaf) {
-  const TreeNode& node = tree_.node(leaf);
-  if (!node.leaf() || !node.complete() || node.depth >= settings_.depth) return;
-  if (node.samples < most && rule_ != nullptr && rule_->goes_on(tree_, leaf)) {
-    tree_.raise_limit(leaf, most);
-    tree_.advance(leaf);
-    return;
-  }
-  const auto first = static_cast<std::uint32_t>(tree_.size());
-  tree_.split(leaf, node.depth + std::size_t{1} < settings_.depth ? split_at : most);
-  ++stats_.splits;
-  leaves_ += 3;
-  is_touched_.resize(tree_.size());
-  told_.resize(tree_.size());
-  queue_.grow(tree_.size());
-  for (std::uint32_t quadrant = first; quadrant < tree_.size(); ++quadrant) note(quadrant);
 }
 
 /// Puts a leaf where it belongs in the queue, and those beside it that have to hear of it.

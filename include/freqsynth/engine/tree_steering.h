@@ -31,6 +31,7 @@ class TreeSteering {
   [[nodiscard]] bool settled() const { return settled_; }
 
   /// Every block has had a sample: sets the factors of all leaves that have.
+  /// \throws std::bad_alloc, and it is not settled.
   void settle(NodeTree& tree);
   /// Sets those of a leaf, if it is one, once more.
   void look_at(NodeTree& tree, std::uint32_t leaf);
@@ -58,11 +59,11 @@ inline double TreeSteering::mean(std::span<const float> values) {
 }
 
 inline void TreeSteering::settle(NodeTree& tree) {
-  settled_ = true;
-  if (linear()) return;
   for (std::size_t c = 0; c < levels_.size(); ++c) {
     if (steer_ == Steer::relative) set_level(tree, c);
   }
+  settled_ = true;
+  if (linear()) return;
   for (std::uint32_t leaf = 0; leaf < tree.size(); ++leaf) {
     if (tree.node(leaf).leaf() && tree.node(leaf).samples > 0) set_factors(tree, leaf);
   }
