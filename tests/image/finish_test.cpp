@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <ostream>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -60,6 +61,8 @@ struct Case {
   SynthesisSettings settings;
   double samples_per_pixel;
   std::array<float, 4> (*sampler)(const Request&);
+
+  friend void PrintTo(const Case& one, std::ostream* out) { *out << one.name; }
 };
 
 std::array<float, 4> smooth_and_edges(const Request& request) {
@@ -110,59 +113,61 @@ std::vector<float> pixels_of(const Synthesizer& engine, const FinishSettings& se
   return pixels;
 }
 
-TEST(Finish, WritesWhatReconstructionMakesAndNoExecutorMatters) {
-  ThreadPool two(2), three(3), seven(7);
-  for (const Case& one : cases()) {
-    Synthesizer engine(one.settings);
-    engine.run(one.sampler, helpers::at_samples_per_pixel(one.samples_per_pixel));
-    const std::size_t width = engine.window().width, height = engine.window().height;
-    for (const bool residuals : {true, false}) {
-      FinishSettings settings;
-      settings.residuals = residuals;
-      const FrequencyImage expected_image = engine.finished_image(settings);
-      const FrequencyImage fit = engine.image();
-      const auto expect_images = [&](auto&& executor, const char* name) {
-        EXPECT_TRUE(helpers::same_image(engine.finished_image(settings, executor), expected_image))
-            << one.name << " on " << name;
-        EXPECT_TRUE(helpers::same_image(engine.image(executor), fit)) << one.name << " on " << name;
-      };
-      expect_images(two, "two");
-      expect_images(three, "three");
-      expect_images(seven, "seven");
-      expect_images(Backwards{}, "backwards");
-      expect_images(Lazy{}, "lazy");
+class FinishOf : public testing::TestWithParam<Case> {};
 
-      struct Size {
-        std::size_t width, height;
+TEST_P(FinishOf, WritesWhatReconstructionMakesAndNoExecutorMatters) {
+  ThreadPool two(2), three(3), seven(7);
+  const Case& one = GetParam();
+  Synthesizer engine(one.settings);
+  engine.run(one.sampler, helpers::at_samples_per_pixel(one.samples_per_pixel));
+  const std::size_t width = engine.window().width, height = engine.window().height;
+  for (const bool residuals : {true, false}) {
+    FinishSettings settings;
+    settings.residuals = residuals;
+    const FrequencyImage expected_image = engine.finished_image(settings);
+    const FrequencyImage fit = engine.image();
+    const auto expect_images = [&](auto&& executor, const char* name) {
+      EXPECT_TRUE(helpers::same_image(engine.finished_image(settings, executor), expected_image))
+          << "on " << name;
+      EXPECT_TRUE(helpers::same_image(engine.image(executor), fit)) << "on " << name;
+    };
+    expect_images(two, "two");
+    expect_images(three, "three");
+    expect_images(seven, "seven");
+    expect_images(Backwards{}, "backwards");
+    expect_images(Lazy{}, "lazy");
+
+    struct Size {
+      std::size_t width, height;
+    };
+    // Among them those of which a pixel lies in several blocks.
+    for (const Size size : {Size{width, height}, Size{2 * width, 2 * height},
+                            Size{(width + 1) / 2, (height + 1) / 2}, Size{71, 3}}) {
+      const std::size_t w = size.width, h = size.height;
+      const std::vector<float> expected = pixels_of(engine, settings, w, h);
+      const auto expect_pixels = [&](auto&& write, const char* name) {
+        std::vector<float> pixels(expected.size(), -7);
+        write(PixelView{pixels.data(), w, h});
+        EXPECT_EQ(pixels, expected) << "at " << w << " x " << h << ": " << name;
       };
-      // Among them those of which a pixel lies in several blocks.
-      for (const Size size : {Size{width, height}, Size{2 * width, 2 * height},
-                              Size{(width + 1) / 2, (height + 1) / 2}, Size{71, 3}}) {
-        const std::size_t w = size.width, h = size.height;
-        const std::vector<float> expected = pixels_of(engine, settings, w, h);
-        const auto expect_pixels = [&](auto&& write, const char* name) {
-          std::vector<float> pixels(expected.size(), -7);
-          write(PixelView{pixels.data(), w, h});
-          EXPECT_EQ(pixels, expected) << one.name << " at " << w << " x " << h << ": " << name;
-        };
-        const auto finish = [&](const PixelView& view) { engine.finish(view, settings); };
-        expect_pixels(finish, "no executor");
-        const auto finish_on = [&](auto& executor, const char* name) {
-          const auto both = [&](const PixelView& view) { engine.finish(view, settings, executor); };
-          expect_pixels(both, name);
-          expect_pixels(
-              [&](const PixelView& view) { reconstruct(expected_image, {}, view, executor); },
-              name);
-        };
-        Backwards backwards;
-        Lazy lazy;
-        finish_on(three, "three");
-        finish_on(backwards, "backwards");
-        finish_on(lazy, "lazy");
-      }
+      const auto finish = [&](const PixelView& view) { engine.finish(view, settings); };
+      expect_pixels(finish, "no executor");
+      const auto finish_on = [&](auto& executor, const char* name) {
+        const auto both = [&](const PixelView& view) { engine.finish(view, settings, executor); };
+        expect_pixels(both, name);
+        expect_pixels(
+            [&](const PixelView& view) { reconstruct(expected_image, {}, view, executor); }, name);
+      };
+      Backwards backwards;
+      Lazy lazy;
+      finish_on(three, "three");
+      finish_on(backwards, "backwards");
+      finish_on(lazy, "lazy");
     }
   }
 }
+INSTANTIATE_TEST_SUITE_P(Pictures, FinishOf, testing::ValuesIn(cases()),
+                         [](const auto& one) { return std::string(one.param.name); });
 
 TEST(Finish, KeepsToTheStridesOfTheView) {
   Synthesizer engine(helpers::settings_of(50, 43, 3));
