@@ -118,7 +118,7 @@ TEST(BlockSnapshot, StaysAsItIsWhileTheStoreGoesOn) {
 }
 
 /// Previews while another thread delivers: each is the picture after a number of whole waves.
-TEST(BlockSnapshot, PreviewsAreThoseOfCompletedWaves) {
+TEST(BlockSnapshot, PreviewsWhileAThreadDeliversAreOfCompletedWaves) {
   const SynthesisSettings settings = helpers::settings_of(96, 64, 3);
   const auto scene = [](double x, double y) {
     const float value = helpers::picture(x, y);
