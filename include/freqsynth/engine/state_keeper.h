@@ -16,17 +16,23 @@
 
 #include "freqsynth/basis/aligned.h"
 #include "freqsynth/basis/config.h"
+#include "freqsynth/basis/large_pages.h"
 
 namespace freqsynth {
 namespace detail {
 
 /// What is saved of all blocks for one reader, on any number of threads. Takes all memory at the
-/// start, room for every state; of that, the system has to provide only what is used.
+/// start, room for every state; of that, the system has to provide only the first megabytes and
+/// what is used.
 class StateKeeper {
  public:
   /// \param floats  of a state
   StateKeeper(std::size_t blocks, std::size_t floats)
-      : floats_(floats), marks_(blocks), places_(blocks), saved_(memory_of(blocks * floats)) {}
+      : floats_(floats), marks_(blocks), places_(blocks), saved_(memory_of(blocks * floats)) {
+    // Here nobody waits for the system to provide memory; where states change first, others do.
+    const std::size_t used = std::min(blocks * floats, ready);
+    for (std::size_t at = 0; at < used; at += page) saved_[at] = 0;
+  }
 
   /// Copies a state as it was.
   /// \param state  where it is
@@ -40,15 +46,19 @@ class StateKeeper {
   static constexpr std::uint8_t busy = 0x20, saved = 0x40, done = 0x80;
   using Mark = std::atomic<std::uint8_t>;
 
+  static constexpr std::size_t ready = std::size_t{1} << 22;  // floats, of 16 MB
+  static constexpr std::size_t page = 1024;                   // floats; pages may be larger
+
   struct Release {
     void operator()(float* memory) const {
-      ::operator delete (memory, std::align_val_t{alignment});
+      ::operator delete (memory, std::align_val_t{large_page});
     }
   };
   static float* memory_of(std::size_t floats) {
     if (floats > static_cast<std::size_t>(-1) / sizeof(float)) throw std::bad_array_new_length();
-    return static_cast<float*>(
-        ::operator new (floats * sizeof(float), std::align_val_t{alignment}));
+    void* const memory = ::operator new (floats * sizeof(float), std::align_val_t{large_page});
+    ask_for_large_pages(memory, floats * sizeof(float));
+    return static_cast<float*>(memory);
   }
   /// Waits until nobody copies the state, which takes no longer than that, and keeps others from
   /// it, unless the mark is one of `without`. \return the mark
