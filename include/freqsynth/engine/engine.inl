@@ -87,7 +87,11 @@ template <Refiner R, BlockMeasure<R> M>
 template <class Use>
 auto Engine<R, M>::with_snapshot(Use&& use, std::optional<PixelStore>* features) const {
   const std::lock_guard one(snapshot_);
-  detail::StateKeeper keeper(blocks_.size(), blocks_.state_size());
+  const bool soon = [&] {
+    const std::lock_guard lock(mutex_);
+    return !wave_.empty();
+  }();
+  detail::StateKeeper keeper(blocks_.size(), blocks_.state_size(), soon);
   std::unique_lock lock = settled();
   if (features) features->emplace(apart_.part(ChannelRole::mean_feature));
   const BlockSnapshot<R> snapshot(blocks_, &keeper);

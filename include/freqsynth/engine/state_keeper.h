@@ -22,15 +22,15 @@ namespace freqsynth {
 namespace detail {
 
 /// What is saved of all blocks for one reader, on any number of threads. Takes all memory at the
-/// start, room for every state; of that, the system has to provide only the first megabytes and
-/// what is used.
+/// start, room for every state; of that, the system has to provide only what is used.
 class StateKeeper {
  public:
   /// \param floats  of a state
-  StateKeeper(std::size_t blocks, std::size_t floats)
+  /// \param soon    states are about to change. Then the system is to provide the first of the
+  ///                memory here, where nobody waits for it
+  StateKeeper(std::size_t blocks, std::size_t floats, bool soon = false)
       : floats_(floats), marks_(blocks), places_(blocks), saved_(memory_of(blocks * floats)) {
-    // Here nobody waits for the system to provide memory; where states change first, others do.
-    const std::size_t used = std::min(blocks * floats, ready);
+    const std::size_t used = soon ? std::min(blocks * floats, ready) : 0;
     for (std::size_t at = 0; at < used; at += page) saved_[at] = 0;
   }
 
@@ -46,7 +46,7 @@ class StateKeeper {
   static constexpr std::uint8_t busy = 0x20, saved = 0x40, done = 0x80;
   using Mark = std::atomic<std::uint8_t>;
 
-  static constexpr std::size_t ready = std::size_t{1} << 22;  // floats, of 16 MB
+  static constexpr std::size_t ready = std::size_t{1} << 21;  // floats, of 8 MB
   static constexpr std::size_t page = 1024;                   // floats; pages may be larger
 
   struct Release {
