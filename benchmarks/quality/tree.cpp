@@ -3,12 +3,14 @@
 // equal samples:
 //   freqsynth_tree [--rates 0.25,1,4,16] [--size 128] [--seeds 1] [--reference 256]
 //                  [--folder out/references] [--documents docs] [--photographs FOLDER]
-//                  [--fields MEMBERS] [choosing | reporting | SCENE ...]
+//                  [--exploration 0] [--fields MEMBERS | --discs PLACES]
+//                  [choosing | reporting | SCENE ...]
 // Prints Markdown tables. Errors are those of linear values against averages of so many jittered
 // samples per pixel, or exact ones, which are kept in a folder, if there is one. Five scenes and
 // five pictures are for choosing members, rules and parameters; five and five others, which
 // nothing may be chosen on, are reported (quality/tree_subjects.cpp). --fields: the field cases
-// instead.
+// instead;
+// --discs: how many small discs in flat parts are missed, by TreeSettings::exploration.
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -42,6 +44,8 @@ struct Options {
   std::string folder;           // of references
   quality::SubjectFolders folders;
   std::uint64_t fields = 0;
+  std::uint64_t discs = 0;
+  double exploration = freqsynth::TreeSettings().exploration;
   std::vector<std::string> names;
 };
 
@@ -73,6 +77,10 @@ Options options_of(int count, char** arguments) {
       options.folders.photographs = value;
     } else if (name == "--fields") {
       options.fields = std::stoull(value);
+    } else if (name == "--discs") {
+      options.discs = std::stoull(value);
+    } else if (name == "--exploration") {
+      options.exploration = std::stod(value);
     } else if (name == "--size") {
       options.size = std::stoi(value);
     } else {
@@ -85,8 +93,9 @@ Options options_of(int count, char** arguments) {
 
 /// `predicted` receives the error that is expected.
 baselines::Rendering by_tree(const baselines::Radiance& radiance, const baselines::Job& job,
-                             double& predicted) {
+                             double exploration, double& predicted) {
   freqsynth::TreeSettings settings;
+  settings.exploration = exploration;
   settings.width = job.width;
   settings.height = job.height;
   settings.seed = job.seed;
@@ -122,7 +131,7 @@ class Measuring {
         methods_{quality::find_method("freqsynth"),
                  {"tree", "", "",
                   [this](const baselines::Radiance& radiance, const baselines::Job& job) {
-                    return by_tree(radiance, job, predicted_);
+                    return by_tree(radiance, job, options_.exploration, predicted_);
                   }},
                  quality::find_method("whitted")} {}
 
@@ -220,7 +229,9 @@ void write_tables(const Options& options) {
 int main(int count, char** arguments) {
   try {
     const Options options = options_of(count, arguments);
-    if (options.fields > 0) {
+    if (options.discs > 0) {
+      quality::write_lost_discs(options.discs, stdout);
+    } else if (options.fields > 0) {
       quality::write_tree_fields(options.fields, stdout);
     } else {
       write_tables(options);

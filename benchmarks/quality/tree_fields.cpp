@@ -126,4 +126,64 @@ void write_tree_fields(std::uint64_t members, std::FILE* out) {
   }
 }
 
+void write_lost_discs(std::uint64_t places, std::FILE* out) {
+  constexpr double explorations[] = {0, 0.7, 0.75, 0.82};
+  constexpr std::uint64_t seeds = 3;
+  // Lists of positions are there as long as somebody has them.
+  std::vector<std::unique_ptr<freqsynth::TreeSampler>> keepers;
+  const auto settings_of = [](std::uint64_t seed) {
+    freqsynth::TreeSettings settings;
+    settings.width = 128;
+    settings.height = 64;
+    settings.weights = {1};
+    settings.seed = seed;
+    return settings;
+  };
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+    keepers.push_back(std::make_unique<freqsynth::TreeSampler>(settings_of(seed)));
+  }
+  std::fprintf(out, "| radius | at |");
+  for (const double one : explorations) std::fprintf(out, " %g |", one);
+  std::fprintf(out, " jittered |\n|---|---|---|---|---|---|---|\n");
+  for (const double radius : {0.8, 1.2, 2.0}) {
+    for (const double rate : {0.25, 1.0, 4.0}) {
+      // The flat half is dark but for the disc.
+      const auto missed = [&](auto&& sample) {
+        std::uint64_t count = 0;
+        for (std::uint64_t number = 1; number <= places; ++number) {
+          const Field field =
+              field_cases::random_disc(field_cases::table_seed, number, radius, 1).field;
+          bool found = false;
+          sample(number, [&](double x, double y) {
+            const auto value = static_cast<float>(field.value(x, y));
+            found = found || (x < 60 && value > 0);
+            return value;
+          });
+          count += found ? 0 : 1;
+        }
+        std::fprintf(out, " %.1f |",
+                     100 * static_cast<double>(count) / static_cast<double>(places));
+        std::fflush(out);
+      };
+      const std::uint64_t samples = field_cases::samples_at(rate, 128, 64);
+      std::fprintf(out, "| %g | %g |", radius, rate);
+      for (const double one : explorations) {
+        missed([&](std::uint64_t number, auto&& sampler) {
+          freqsynth::TreeSettings settings = settings_of(number % seeds + 1);
+          settings.exploration = one;
+          freqsynth::DirectionRule rule;
+          freqsynth::TreeSampler(settings, &rule).run(sampler, samples);
+        });
+      }
+      missed([&](std::uint64_t number, auto&& sampler) {
+        static_cast<void>(
+            field_cases::jittered([&](double x, double y, std::uint64_t,
+                                      std::span<float> values) { values[0] = sampler(x, y); },
+                                  128, 64, 1, samples, number));
+      });
+      std::fprintf(out, "\n");
+    }
+  }
+}
+
 }  // namespace quality

@@ -49,7 +49,6 @@ inline TreeSettings tree_settings(const SynthesisSettings& settings) {
   require_unused("priority.measure", priority.measure, other.measure);
   require_unused("priority.neighbours", priority.neighbours, other.neighbours);
   require_unused("priority.image", priority.image, other.image);
-  require_unused("priority.exploration", priority.exploration, other.exploration);
   require_unused("the number of channels of role feature",
                  channels_of(settings, ChannelRole::feature).size(), std::size_t{0});
   TreeSettings tree;
@@ -62,6 +61,7 @@ inline TreeSettings tree_settings(const SynthesisSettings& settings) {
   tree.wave = settings.wave;
   tree.steer = priority.steer;
   tree.exposure = priority.exposure;
+  tree.exploration = priority.exploration;
   return tree;
 }
 

@@ -108,7 +108,6 @@ TEST(KrigingRules, RefusesWhatItHasNoUseForByName) {
   expect_refused("priority.measure", [](S& s) { s.priority.measure = PriorityMeasure::change; });
   expect_refused("priority.neighbours", [](S& s) { s.priority.neighbours = 2; });
   expect_refused("priority.image", [](S& s) { s.priority.image = 2; });
-  expect_refused("priority.exploration", [](S& s) { s.priority.exploration = 0; });
   expect_refused("role feature", [](S& s) {
     s.channel_settings = {{}, {.role = ChannelRole::feature}};
   });

@@ -125,7 +125,9 @@ TEST(TreeSampler, GivesBackTheMemoryOfNodesThatAreSplit) {
 }
 
 TEST(TreeSampler, TakesWhereTheSceneHasDetail) {
-  TreeSampler sampler(settings_of(64, 32));
+  TreeSettings settings = settings_of(64, 32);
+  settings.exploration = 0;
+  TreeSampler sampler(settings);
   std::size_t busy = 0, flat = 0;
   sampler.run(
       [&](double x, double y) {

@@ -172,6 +172,7 @@ void TreeArchive::choice(Archive& archive, Sampler& sampler) {
   const NodeTree& tree = sampler.tree_;
   if constexpr (Archive::loading) {
     sampler.queue_.grow(tree.size());
+    if (sampler.settings_.exploration > 0) sampler.behind_.grow(tree.size());
     sampler.is_touched_.resize(tree.size());
     sampler.told_.resize(tree.size());
     sampler.leaves_ = tree.size() - (tree.size() - tree.grid().size()) / 4;
@@ -196,7 +197,7 @@ void TreeArchive::choice(Archive& archive, Sampler& sampler) {
     archive.number(priority);
     const bool open = tree.node(leaf).leaf() && !tree.node(leaf).complete();
     archive.check(detail::is_finite(priority) && (open || priority == BlockQueue::absent));
-    if constexpr (Archive::loading) sampler.queue_.update(leaf, priority);
+    if constexpr (Archive::loading) sampler.place(leaf, priority);
   }
   archive.list(sampler.factors_, tree.grid().size());
   archive.check(sampler.factors_.empty() || sampler.factors_.size() == tree.grid().size());

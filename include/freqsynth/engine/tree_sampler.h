@@ -44,7 +44,7 @@ struct TreeStats {
 ///   pixels * sigma^2 v_n / n
 /// (see KrigingRefiner), where `pixels` is its area, the square of it below one pixel, and sigma^2
 /// is pooled with that of the eight blocks around, or with that of its siblings. Leaves with fewer
-/// than 5 samples come before all others.
+/// than 5 samples come before all others, then those that lag behind (TreeSettings::exploration).
 class TreeSampler {
  public:
   /// Samples after which a node is split, unless it goes on as one.
@@ -114,10 +114,15 @@ class TreeSampler {
 
   /// Largest magnitude whose squares a node bears.
   static constexpr float most_value = 1e15f;
+  /// Greatest priority of leaves that are not to come first in any case.
+  static constexpr float most_gain = 1e29f;
 
   [[nodiscard]] static std::uint64_t name_of(const TreePlace& place) {
     return (static_cast<std::uint64_t>(place.y) << 32) | static_cast<std::uint64_t>(place.x);
   }
+  void place(std::uint32_t leaf, float priority);
+  void take_lagging(std::size_t size);
+  [[nodiscard]] float behind(std::uint32_t leaf) const;
   void take(std::uint32_t leaf);
   void ask();
   void add_request(std::uint32_t leaf);
@@ -141,6 +146,8 @@ class TreeSampler {
   NodeTree tree_;
   TreeSteering steering_;
   BlockQueue queue_;
+  BlockQueue behind_;  // those of queue_, the one first that has the fewest samples for its area
+  double area_ = 0;    // of the blocks that may be sampled, in blocks of 8 x 8 pixels
   std::optional<PixelCounts> pixels_;  // of choose()
   std::uint64_t frame_;                // the seed, mixed
   std::size_t leaves_;

@@ -44,6 +44,7 @@ inline TreeSampler::TreeSampler(const TreeSettings& settings, SplitRule* rule)
             settings.noisy ? KrigingRefiner::noise_of_estimates : KrigingRefiner::noise_of_detail),
       steering_(settings.steer, settings.exposure, settings.weights.size()),
       queue_(tree_.size()),
+      behind_(tree_.size()),
       frame_(detail::mix_bits(settings.seed + detail::golden_step)),
       leaves_(tree_.size()),
       is_touched_(tree_.size()),
@@ -52,7 +53,7 @@ inline TreeSampler::TreeSampler(const TreeSettings& settings, SplitRule* rule)
       sums_(tree_.channels()),
       usable_(tree_.channels()) {
   if (settings_.noisy) settings_.depth = 0;
-  for (std::uint32_t leaf = 0; leaf < tree_.size(); ++leaf) queue_.update(leaf, priority(leaf));
+  use_factors({});
 }
 
 inline TreeStats TreeSampler::stats() const {
@@ -94,7 +95,7 @@ inline float TreeSampler::priority(std::uint32_t leaf) const {
   const double gain = factor * share * scale *
                       double{tree_.refiner().variance(node.of, node.samples)} /
                       static_cast<double>(node.samples);
-  return static_cast<float>(std::min(gain, 1e29));
+  return static_cast<float>(std::min(gain, double{most_gain}));
 }
 
 /// Once every block has had a sample, their priorities become others.
@@ -111,7 +112,7 @@ inline void TreeSampler::settle() {
     told_[number] = tree_.node(number).scale;
     if (number < blocks) scales_ += double{told_[number]};
   }
-  for (std::uint32_t leaf = 0; leaf < tree_.size(); ++leaf) queue_.update(leaf, priority(leaf));
+  for (std::uint32_t leaf = 0; leaf < tree_.size(); ++leaf) place(leaf, priority(leaf));
 }
 
 /// Puts a leaf where it belongs in the queue, and those beside it that have to hear of it.
@@ -119,13 +120,13 @@ inline void TreeSampler::update(std::uint32_t leaf) {
   steering_.look_at(tree_, leaf);
   const TreeNode& node = tree_.node(leaf);
   const float scale = node.scale;
-  queue_.update(leaf, priority(leaf));
+  place(leaf, priority(leaf));
   const bool news = scale > 1.25f * told_[leaf] || scale < 0.8f * told_[leaf];
   if (!news) return;
   if (node.depth == 0) scales_ += double{scale} - double{told_[leaf]};
   told_[leaf] = scale;
   const auto tell = [this](std::uint32_t other) {
-    if (queue_.priority(other) != BlockQueue::absent) queue_.update(other, priority(other));
+    if (queue_.priority(other) != BlockQueue::absent) place(other, priority(other));
   };
   if (node.depth == 0) {
     tree_.visit_blocks_around(leaf, tell);

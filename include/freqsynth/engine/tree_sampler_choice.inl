@@ -12,8 +12,12 @@ namespace freqsynth {
 inline void TreeSampler::use_factors(std::vector<float> factors) {
   FREQSYNTH_ASSERT(factors.empty() || factors.size() == tree_.grid().size());
   factors_ = std::move(factors);
-  for (std::uint32_t leaf = 0; leaf < tree_.size(); ++leaf) queue_.update(leaf, priority(leaf));
-  for (const std::uint32_t leaf : chosen_) queue_.update(leaf, BlockQueue::absent);
+  area_ = 0;
+  for (std::uint32_t block = 0; block < tree_.grid().size(); ++block) {
+    if (factors_.empty() || factors_[block] > 0) area_ += tree_.area(block) / max_terms;
+  }
+  for (std::uint32_t leaf = 0; leaf < tree_.size(); ++leaf) place(leaf, priority(leaf));
+  for (const std::uint32_t leaf : chosen_) place(leaf, BlockQueue::absent);
 }
 
 inline std::span<const Request> TreeSampler::choose(std::uint64_t at_most) {
@@ -34,10 +38,11 @@ inline std::span<const Request> TreeSampler::plan(const Limits& limits) {
   owners_.reserve(size);
   wave_.reserve(size);
   borders_.reserve(size);
-  for (const std::uint32_t leaf : chosen_) queue_.update(leaf, priority(leaf));
+  for (const std::uint32_t leaf : chosen_) place(leaf, priority(leaf));
   chosen_.clear();
   wave_.clear();
   owners_.clear();
+  if (settings_.exploration > 0) take_lagging(size);
   while (chosen_.size() < size && double{queue_.top_priority()} > limits.priority) {
     take(static_cast<std::uint32_t>(queue_.top()));
   }
@@ -57,9 +62,35 @@ inline bool TreeSampler::complete() const {
   return true;
 }
 
+/// Puts a leaf where it belongs in both queues; none, where it is absent.
+inline void TreeSampler::place(std::uint32_t leaf, float priority) {
+  queue_.update(leaf, priority);
+  if (settings_.exploration == 0) return;
+  behind_.update(leaf, priority == BlockQueue::absent ? priority : behind(leaf));
+}
+
+/// Chooses leaves that have had few samples, or few for their area.
+inline void TreeSampler::take_lagging(std::size_t size) {
+  while (chosen_.size() < size && queue_.top_priority() > most_gain) {
+    take(static_cast<std::uint32_t>(queue_.top()));
+  }
+  if (area_ == 0) return;
+  const double mean = static_cast<double>(stats_.samples) / area_;
+  const double least = std::pow(mean, settings_.exploration);
+  // Those that are absent are below all.
+  while (chosen_.size() < size && double{behind_.top_priority()} > -least) {
+    take(static_cast<std::uint32_t>(behind_.top()));
+  }
+}
+
+/// The fewer samples a leaf has for its area, the greater.
+inline float TreeSampler::behind(std::uint32_t leaf) const {
+  return static_cast<float>(-double{max_terms} * tree_.node(leaf).samples / tree_.area(leaf));
+}
+
 /// Chooses a leaf for the wave, for which there is room.
 inline void TreeSampler::take(std::uint32_t leaf) {
-  queue_.update(leaf, BlockQueue::absent);
+  place(leaf, BlockQueue::absent);
   chosen_.push_back(leaf);
 }
 

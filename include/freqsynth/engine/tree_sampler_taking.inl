@@ -138,6 +138,7 @@ inline void TreeSampler::reserve_split() {
   if (told_.capacity() < size) told_.reserve(2 * size);
   if (is_touched_.capacity() < size) is_touched_.reserve(2 * size);
   queue_.grow(size);
+  if (settings_.exploration > 0) behind_.grow(size);
 }
 
 }  // namespace freqsynth

@@ -29,6 +29,11 @@ struct TreeSettings {
   std::size_t depth = 5;
   /// Most leaves of a wave; 0: 1/32 of all. The picture depends on it.
   std::size_t wave = 0;
+  /// Leaves do not stay behind the others for good, however flat they look: when blocks of 8 x 8
+  /// pixels have been asked for m samples on average, leaves with fewer than m^exploration, by
+  /// their area, come first. In [0, 1]; 0: never.
+  /// Otherwise what looks flat after 5 samples stays so while others want some.
+  double exploration = 0.82;
   Steer steer = Steer::linear;  ///< in what unit errors count
   double exposure = 1;          ///< see PrioritySettings::exposure
 

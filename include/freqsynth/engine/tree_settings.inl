@@ -18,6 +18,7 @@ FREQSYNTH_INLINE void TreeSettings::validate() const {
   detail::require(perturbation >= 0 && perturbation <= 0.45, "perturbation", perturbation,
                   "in [0, 0.45]");
   detail::require(depth <= 5, "depth", static_cast<double>(depth), "in 0..5");
+  detail::require(exploration >= 0 && exploration <= 1, "exploration", exploration, "in [0, 1]");
   detail::require(exposure >= 1e-30 && exposure <= 1e30, "exposure", exposure, "in 1e-30..1e30");
 }
 
