@@ -65,9 +65,10 @@ struct PrioritySettings {
   double neighbours = 16;
   /// The same for the mean residuals of all blocks, so that no block is ever taken for flat.
   double image = 1;
-  /// No block stays behind the others for good, however flat it looks: when the blocks have m
-  /// samples on average, those with fewer than m^exploration come first. In [0, 1]; 0: never, 1:
-  /// all blocks get the same number of samples.
+  /// No block (with RefinerKind::kriging, no leaf of the tree, by its area) stays behind the others
+  /// for good, however flat it looks: when the blocks have m samples on average, those with fewer
+  /// than m^exploration come first. In [0, 1]; 0: never, 1: all blocks get the same number of
+  /// samples.
   double exploration = 0.82;
   /// In what unit errors count. For hosts that give linear light and show it encoded: to a linear
   /// measure, dark parts are good enough when what is seen of them is not. Not with a quantization

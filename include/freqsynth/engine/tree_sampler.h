@@ -158,7 +158,14 @@ class TreeSampler {
     std::uint64_t name = 0;
     std::size_t number = 0;  // in `chosen_`
   };
-  std::vector<Border> borders_;  // positions on borders
+  std::vector<Border> borders_;         // positions on borders
+  std::vector<std::uint32_t> chosen_;   // leaves, some of which ask for nothing of their own
+  std::vector<std::uint32_t> touched_;  // leaves that have taken in something
+  std::vector<std::uint32_t> ripe_;     // leaves that may have to be split
+  std::vector<bool> is_touched_;
+  std::vector<float> factors_;  // on priorities, of each block; none: 1
+  std::vector<float> told_;     // the scale of each node that others know of
+  std::vector<float> values_;
   /// How far take_in() has come: where it is to go on when memory has run out.
   struct Taking {
     std::size_t sample = 0;                  // of the wave
@@ -169,13 +176,6 @@ class TreeSampler {
     std::array<std::uint32_t, 4> growing{};  // leaves that have become able to take in more
     std::size_t growing_count = 0, grown = 0;
   };
-  std::vector<std::uint32_t> chosen_;   // leaves, some of which ask for nothing of their own
-  std::vector<std::uint32_t> touched_;  // leaves that have taken in something
-  std::vector<std::uint32_t> ripe_;     // leaves that may have to be split
-  std::vector<bool> is_touched_;
-  std::vector<float> factors_;  // on priorities, of each block; none: 1
-  std::vector<float> told_;     // the scale of each node that others know of
-  std::vector<float> values_;
   Taking taking_;
   std::vector<double> sums_;  // of the usable values of each channel
   std::vector<std::uint64_t> usable_;
